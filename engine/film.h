@@ -1,0 +1,43 @@
+// A camera's picture as a gather: each pixel is a weighted sum of vertex (or element) values. The weights depend on
+// the view only, so one film serves all passes of a run.
+#pragma once
+
+#include "solve.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace patchlight {
+
+struct View {
+  Vec3 eye, target, up;      // lengths
+  float fov_degrees = 60;    // vertical
+  uint32_t width = 0, height = 0;
+};
+
+struct FilmSettings {
+  bool smooth = true;         // vertex values, bilinear; false: one value an element
+  bool mesh_lines = false;    // also find where the edges of the elements run
+  uint64_t seed = 1;
+};
+
+// CSR: pixel (row by row from the top left) -> (value, weight). Weights of a pixel sum to its share that shows
+// the scene; the rest is background, 0.
+struct FilmTable {
+  uint32_t width = 0, height = 0;
+  std::vector<uint64_t> pixel_first;
+  std::vector<uint32_t> value;
+  std::vector<float> weight;
+  std::vector<float> line_cover;  // a row a pixel, 0..1, if asked: how much of it the lines of the mesh cover
+  uint64_t ray_count = 0;
+};
+
+// Box mean of at least 16 samples a pixel; 256 where a lamp's border shows. Looks through back sides.
+FilmTable make_film(const Solution& solution, const FaceTable& faces, const Tracer& tracer, const View& view,
+                    const FilmSettings& settings);
+
+// One colour a pixel: the weighted sums of `values` (vertices or elements, as the film was made).
+std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values);
+
+}  // namespace patchlight

@@ -1,0 +1,99 @@
+// The solver as its callers see it: make the meshes, refine them in rounds, then advance pass by pass.
+//
+//   Solution solution = make_solution(faces, tracer, settings);
+//   while (refine(solution, faces, tracer, settings)) {}           // rounds, until nothing splits
+//   while (solution.passes.size() < wanted) advance(solution, faces, tracer, settings);
+//
+// The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints.
+#pragma once
+
+#include "settings.h"
+#include "tables.h"
+#include "tracer.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace patchlight {
+
+struct RoundReport {
+  uint32_t round = 0;          // 1 is the starting mesh
+  uint64_t patch_count = 0;    // elements after the round
+  uint64_t split_count = 0;    // elements that it split
+  uint64_t ray_count = 0;
+  double seconds = 0;
+};
+
+// Powers in W when areas are m2: multiply by (metres a length) squared.
+struct PassReport {
+  uint32_t pass = 0;
+  uint64_t ray_count = 0;      // rays that this pass cast, or whose results it used for the first time
+  DRgb added_power{0};         // sum of area times the radiosity that the pass added
+  float added_largest = 0;     // largest radiosity that the pass added to any element, W/m2
+  double seconds = 0;
+};
+
+// Measured, not made to fit: closure_error = |emitted - absorbed - escaped - unshot| / emitted.
+struct PowerLedger {
+  DRgb emitted{0}, absorbed{0}, escaped{0}, unshot{0};
+  double closure_error = 0;
+};
+
+struct Seconds {
+  double trace = 0, split = 0, solve = 0;
+};
+
+struct Solution {
+  FaceFrameTable frames;
+  FaceLinkTable links;
+  PatchTable patches, elements;
+  std::vector<uint32_t> element_first;   // CSR: patch -> its elements, patches + 1
+  std::vector<uint32_t> element_patch;   // a row an element
+  VertexTable patch_vertices;            // of the patches; of the elements once the mesh is frozen
+  VertexTable element_vertices;
+  AimTable aims;
+  LampViewTable views;                   // a row an element
+  HitTable hits;                         // a row of rays a patch
+  std::vector<Rgb> direct;               // a row an element: irradiance from the lamps aimed at, W/m2
+  std::vector<Rgb> irradiance;           // a row a patch: all other irradiance of the passes so far, W/m2
+  std::vector<Rgb> irradiance_added;     // a row a patch: what the last pass added to it
+  Rgb mean_radiosity{0};                 // of the coarse solution, reflected light only: the scale of `threshold`
+  bool frozen = false;                   // the mesh is final; advance() freezes it
+  std::vector<RoundReport> rounds;
+  std::vector<PassReport> passes;
+  Seconds seconds;
+};
+
+// Starting meshes, the rows of all patches and a coarse solution on them. Throws UserError-free: faces are valid.
+Solution make_solution(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+
+// One refinement round: splits where neighbours differ; false once nothing splits (then nothing has changed).
+bool refine(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+
+// One pass: adds the next bounce. The first call freezes the mesh and starts from B = E.
+const PassReport& advance(Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                          const SolverSettings& settings);
+
+// True once the last pass added less than `until` says.
+bool is_converged(const Solution& solution, const SolverSettings& settings);
+
+// Radiosity at the vertices of the elements after the passes so far, W/m2: what the smooth picture shows.
+std::vector<Rgb> vertex_radiosity(const Solution& solution, const FaceTable& faces);
+// The same as a converged guess before pass 1, from the coarse solution: for choosing an exposure.
+std::vector<Rgb> vertex_radiosity_forecast(const Solution& solution, const FaceTable& faces);
+
+// Where the power went, after the passes so far.
+PowerLedger find_power_ledger(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                              const SolverSettings& settings);
+
+// 64-bit hash of all element radiosities: equal runs have equal hashes.
+uint64_t find_solution_hash(const Solution& solution);
+
+// Elements that the settings ask for before any split; may exceed 2^32. For limits, before any memory is taken.
+uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings);
+// Bytes that a solve with these settings will hold at its peak, an upper estimate.
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings);
+// Bytes that the tables hold now.
+uint64_t count_bytes(const Solution& solution);
+
+}  // namespace patchlight
