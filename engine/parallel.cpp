@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
@@ -27,6 +28,8 @@ void for_rows(size_t count, size_t grain, const std::function<void(size_t, size_
                       body(range.begin(), range.end());
                     });
 }
+
+void sort_keys(std::vector<uint64_t>& keys) { tbb::parallel_sort(keys.begin(), keys.end()); }
 
 size_t set_thread_count(size_t count) {
   thread_limit.reset();

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
+#include <vector>
 
 namespace patchlight {
 
@@ -16,6 +18,9 @@ struct Cancelled : std::exception {
 // written by one range only and from inputs that no range writes: then the result does not depend on the threads.
 // Throws what a body throws, and Cancelled.
 void for_rows(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
+
+// Ascending order. Equal keys are alike, so that the result does not depend on the threads.
+void sort_keys(std::vector<uint64_t>& keys);
 
 // Threads for all later loops, >= 1; returns what the system grants (a starved system may give fewer).
 size_t set_thread_count(size_t count);

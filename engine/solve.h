@@ -55,16 +55,21 @@ struct Solution {
   LampViewTable views;                   // a row an element
   HitTable hits;                         // a row of rays a patch
   std::vector<Rgb> direct;               // a row an element: irradiance from the lamps aimed at, W/m2
+  std::vector<float> direct_error;       // a row an element: its standard error, W/m2 (luminance)
   std::vector<Rgb> irradiance;           // a row a patch: all other irradiance of the passes so far, W/m2
   std::vector<Rgb> irradiance_added;     // a row a patch: what the last pass added to it
-  Rgb mean_radiosity{0};                 // of the coarse solution, reflected light only: the scale of `threshold`
+  std::vector<Rgb> coarse;               // a row a patch: irradiance as the coarse solution forecasts it, all bounces
+  std::vector<float> coarse_error;       // a row a patch: its standard error, W/m2 (luminance)
+  float mean_radiosity = 0;              // of the coarse solution, reflected light only, W/m2 (largest channel)
+  std::vector<uint32_t> fresh;           // elements that the last round made
+  uint64_t direct_ray_count = 0;
   bool frozen = false;                   // the mesh is final; advance() freezes it
   std::vector<RoundReport> rounds;
   std::vector<PassReport> passes;
   Seconds seconds;
 };
 
-// Starting meshes, the rows of all patches and a coarse solution on them. Throws UserError-free: faces are valid.
+// Starting meshes, the rows of all patches and a coarse solution on them. Faces must be valid (the loader's work).
 Solution make_solution(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 
 // One refinement round: splits where neighbours differ; false once nothing splits (then nothing has changed).
@@ -81,6 +86,9 @@ bool is_converged(const Solution& solution, const SolverSettings& settings);
 std::vector<Rgb> vertex_radiosity(const Solution& solution, const FaceTable& faces);
 // The same as a converged guess before pass 1, from the coarse solution: for choosing an exposure.
 std::vector<Rgb> vertex_radiosity_forecast(const Solution& solution, const FaceTable& faces);
+
+// Irradiance of each element after the passes so far, W/m2: its direct light and the patches' surface at its centre.
+std::vector<Rgb> element_irradiance(const Solution& solution);
 
 // Where the power went, after the passes so far.
 PowerLedger find_power_ledger(const Solution& solution, const FaceTable& faces, const Tracer& tracer,

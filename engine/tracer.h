@@ -8,7 +8,7 @@
 
 namespace patchlight {
 
-constexpr size_t kPacketSize = 16;
+constexpr uint32_t kPacketSize = 16;
 
 // Sixteen rays; the layout is Embree's own (checked in tracer.cpp), so that nothing is copied.
 struct alignas(64) RayPacket {

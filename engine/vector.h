@@ -1,6 +1,7 @@
 // The one door to GLM: the vector types of the engine and the few operations that it uses.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

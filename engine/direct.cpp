@@ -1,0 +1,341 @@
+// Elements and lamps to direct irradiance.
+//
+// Per lamp: the exact unoccluded factor, times sum(k V) / sum(k) over pairs of points, k the form-factor kernel and V
+// their visibility. A plain visible share instead is biased for near and large pairs. (Ratio estimators in
+// rendering: Heitz, Hill, McGuire: Combining Analytic Direct Illumination and Stochastic Shadows, 2018.)
+#include "direct.h"
+
+#include "lambert.h"
+#include "parallel.h"
+#include "rows.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+
+namespace patchlight {
+namespace {
+
+// Above this share of its sky a patch leaves lamps to its row: closed rooms in which all emits come out exact then.
+constexpr double kLampSkyMax = 0.8;
+// A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at most).
+constexpr float kFarLamp = 0.05f;
+// An element nearer to a lamp than this many of its edges takes the mean of four points.
+constexpr float kNearLamp = 4;
+
+struct Lamp {
+  uint32_t face;
+  Vec3 centre, normal;
+  std::array<Vec3, 4> corners;
+  uint32_t corner_count;
+  float area, diameter;
+  Vec2 twist;  // of the bilinear map in the basis of its edges: the Jacobian is 1 + v x + u y
+};
+
+Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face) {
+  Lamp lamp{face, cell_centre(frames, face, 0, 0), faces.normal[face], faces.corners[face], faces.corner_count[face],
+            cell_area(frames, face, 0, 0), 0, Vec2(0)};
+  for (size_t a = 0; a < lamp.corner_count; ++a)
+    for (size_t b = 0; b < a; ++b) lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
+  if (!frames.affine[face])
+    lamp.twist = {dot(frames.twist[face], frames.dual_u[face]), dot(frames.twist[face], frames.dual_v[face])};
+  return lamp;
+}
+
+// The unoccluded form factor from a point to the lamp.
+float find_factor(Vec3 point, Vec3 normal, const Lamp& lamp) {
+  const Vec3 way = lamp.centre - point;
+  const float distance_squared = dot(way, way);
+  if (lamp.diameter * lamp.diameter < kFarLamp * kFarLamp * distance_squared) {
+    const float cosines = dot(way, normal) * -dot(way, lamp.normal);
+    if (dot(way, normal) <= 0 || cosines <= 0) return 0;
+    return cosines * lamp.area / (kPi * distance_squared * distance_squared);
+  }
+  return static_cast<float>(
+      find_point_form_factor(DVec3(point), DVec3(normal), std::span(lamp.corners).first(lamp.corner_count)));
+}
+
+// Can any point of the patch be lit by the lamp at all, blockers aside?
+bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) {
+  const auto any_above = [](const std::array<Vec3, 4>& points, Vec3 base, Vec3 up, float slack) {
+    return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return dot(p - base, up) > slack; });
+  };
+  const float slack = ray_offset(patch[0]);
+  return any_above(lamp.corners, patch[0], normal, slack) && any_above(patch, lamp.centre, lamp.normal, slack);
+}
+
+// Sixteen points of an element, packet `packet` of four: the union of the four packets is stratified 8 x 8.
+struct Points {
+  Vec3 point[kPacketSize];
+  Vec2 sample[kPacketSize];
+};
+
+Vec2 stratified_sample(uint64_t key, uint32_t packet, uint32_t column, uint32_t row, uint32_t index) {
+  const Vec2 jitter = make_jitter(key, packet * kPacketSize + index);
+  const Vec2 quarter(static_cast<float>((packet ^ index) & 1u), static_cast<float>(((packet >> 1) ^ (index >> 2)) & 1u));
+  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + 0.5f * (quarter + jitter)) * 0.25f;
+}
+
+void make_points(Points& points, const FaceFrameTable& frames, const PatchTable& elements, uint32_t row, uint64_t key,
+                 uint32_t packet) {
+  const uint32_t face = elements.face[row];
+  const bool triangle = frames.triangle[face];
+  const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
+  for (uint32_t k = 0; k < kPacketSize; ++k)
+    points.point[k] = face_point(frames, face,
+                                 cell_sample(triangle, cell, stratified_sample(key, packet, k % 4, k / 4, k)));
+}
+
+uint32_t find_buried_points(const Points& points, Vec3 normal, const FaceTable& faces, const Tracer& tracer) {
+  RayPacket rays;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec3 p = points.point[k] + ray_offset(points.point[k]) * normal;
+    rays.origin_x[k] = p.x, rays.origin_y[k] = p.y, rays.origin_z[k] = p.z;
+  }
+  return find_buried(tracer, faces, make_frame(normal), rays, 0xffff);
+}
+
+uint64_t element_key(const PatchTable& elements, uint32_t row, uint64_t seed) {
+  return make_row_key(seed, elements.face[row], elements.cell[row], elements.level[row], kRowDirect);
+}
+
+struct VisibilitySums {
+  float all = 0, seen = 0;         // of the kernel
+  uint32_t rays = 0, reached = 0;  // counts
+};
+
+// Adds one packet of pairs: the element's points against points of the lamp.
+void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal, const Lamp& lamp,
+                    const FaceFrameTable& frames, const Tracer& tracer, uint64_t key, uint32_t packet) {
+  const CellFrame whole{Vec2(0), 1};
+  const bool triangle = frames.triangle[lamp.face];
+  // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one meets each axis
+  // of the other evenly.
+  const uint64_t lamp_key = mix_bits(key ^ (uint64_t{lamp.face} + 1) * 0x9e3779b97f4a7c15ull);
+  const auto shuffle = static_cast<uint32_t>(lamp_key >> 8 >> 4 * packet);
+  RayPacket rays;
+  float kernel[kPacketSize];
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
+    const Vec2 uv = cell_sample(triangle, whole, stratified_sample(lamp_key, packet, column, row, k));
+    const Vec3 target = face_point(frames, lamp.face, uv) + ray_offset(lamp.centre) * lamp.normal;
+    const Vec3 origin = points.point[k] + ray_offset(points.point[k]) * normal;
+    const Vec3 way = target - origin;
+    const float squared = dot(way, way);
+    const float jacobian = 1 + uv.y * lamp.twist.x + uv.x * lamp.twist.y;
+    kernel[k] = std::max(dot(way, normal), 0.0f) * std::max(-dot(way, lamp.normal), 0.0f) * jacobian /
+                std::max(squared * squared, 1e-30f);
+    if (kernel[k] > 0 && (usable >> k & 1u)) active |= 1u << k;
+    rays.origin_x[k] = origin.x, rays.origin_y[k] = origin.y, rays.origin_z[k] = origin.z;
+    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
+  if (!active) return;
+  const uint32_t blocked = find_blocked(tracer, rays, active);
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(active >> k & 1u)) continue;
+    sums.all += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  }
+  sums.rays += static_cast<uint32_t>(std::popcount(active));
+  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
+// The element's mean unoccluded factor: at its centre, at four points if the lamp is near, at its exposed points if part
+// of it is buried.
+float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames, uint32_t row, Vec3 normal,
+                       const std::array<Vec3, 4>& corners, const Lamp& lamp, const Points& points, uint32_t usable) {
+  if (usable != 0xffff) {
+    float sum = 0;
+    for (uint32_t k = 0; k < kPacketSize; ++k)
+      if (usable >> k & 1u) sum += find_factor(points.point[k], normal, lamp);
+    return sum / static_cast<float>(std::popcount(usable));
+  }
+  const uint32_t face = elements.face[row];
+  const Vec3 centre = cell_centre(frames, face, elements.cell[row], elements.level[row]);
+  const float gap = distance(centre, lamp.centre) - 0.5f * lamp.diameter;
+  if (gap > kNearLamp * longest_edge(corners) || elements.level[row] >= kLevelMax - 1)
+    return find_factor(centre, normal, lamp);
+  float sum = 0;
+  for (uint32_t child = 0; child < 4; ++child)
+    sum += find_factor(cell_centre(frames, face, elements.cell[row] | child << (30 - 2 * elements.level[row]),
+                                   elements.level[row] + 1u),
+                       normal, lamp);
+  return sum / 4;
+}
+
+}  // namespace
+
+AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
+  std::vector<Lamp> lamps;
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    if (largest(faces.emission[f]) > 0) lamps.push_back(make_lamp(faces, frames, f));
+  struct Candidate {
+    float strength;
+    uint32_t face;
+  };
+  std::vector<std::vector<uint32_t>> chosen(patches.size());
+  for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
+    std::vector<Candidate> candidates;
+    for (size_t row = begin; row < end; ++row) {
+      const uint32_t face = patches.face[row];
+      const Vec3 normal = faces.normal[face];
+      if (patches.exposed[row] == 0) continue;
+      const auto corners = cell_corners(frames, face, patches.cell[row], patches.level[row]);
+      const Vec3 centre = cell_centre(frames, face, patches.cell[row], patches.level[row]);
+      candidates.clear();
+      double sky = 0;
+      for (const Lamp& lamp : lamps) {
+        if (lamp.face == face || !can_reach(corners, normal, lamp)) continue;
+        const float factor = find_factor(centre, normal, lamp);
+        sky += factor;
+        candidates.push_back({factor * luminance(faces.emission[lamp.face]), lamp.face});
+      }
+      if (sky > kLampSkyMax) continue;
+      if (candidates.size() > kAimedLampsMax) {
+        std::nth_element(candidates.begin(), candidates.begin() + kAimedLampsMax, candidates.end(),
+                         [](const Candidate& a, const Candidate& b) {
+                           return a.strength != b.strength ? a.strength > b.strength : a.face < b.face;
+                         });
+        candidates.resize(kAimedLampsMax);
+      }
+      for (const Candidate& candidate : candidates) chosen[row].push_back(candidate.face);
+      std::sort(chosen[row].begin(), chosen[row].end());
+    }
+  });
+  AimTable aims;
+  aims.patch_first.push_back(0);
+  for (const auto& list : chosen) {
+    aims.lamp.insert(aims.lamp.end(), list.begin(), list.end());
+    aims.patch_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
+  }
+  return aims;
+}
+
+uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows, std::span<const uint32_t> element_patch,
+                      const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
+                      const Tracer& tracer, uint64_t seed) {
+  std::atomic<uint64_t> ray_count{0};
+  for_rows(rows.size(), 256, [&](size_t begin, size_t end) {
+    Points points;
+    for (size_t k = begin; k < end; ++k) {
+      const uint32_t row = rows[k];
+      const float share = patches.exposed[element_patch[row]];
+      elements.exposed[row] = share;
+      if (share == 0 || share == 1) continue;
+      make_points(points, frames, elements, row, element_key(elements, row, seed), 0);
+      const uint32_t buried = find_buried_points(points, faces.normal[elements.face[row]], faces, tracer);
+      elements.exposed[row] = 1 - static_cast<float>(std::popcount(buried)) / kPacketSize;
+      ray_count += kPacketSize;
+    }
+  });
+  return ray_count;
+}
+
+uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
+                     std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
+                     const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays, uint64_t seed) {
+  assert(out.irradiance.size() == elements.size());
+  std::vector<Lamp> lamps;
+  std::vector<uint32_t> lamp_of(faces.size(), kNone);
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    if (largest(faces.emission[f]) > 0) {
+      lamp_of[f] = static_cast<uint32_t>(lamps.size());
+      lamps.push_back(make_lamp(faces, frames, f));
+    }
+  const uint32_t packets_mixed = std::clamp(rays / 64, 1u, 16u);
+  std::atomic<uint64_t> ray_count{0};
+  for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
+    Points first_points, points;
+    uint64_t cast = 0;
+    for (size_t r = begin; r < end; ++r) {
+      const uint32_t row = rows[r], patch = element_patch[row];
+      const Vec3 normal = faces.normal[elements.face[row]];
+      const uint64_t key = element_key(elements, row, seed);
+      const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];
+      uint64_t seen = settled_seen, hidden = settled & out.views.hidden[row];
+      Rgb irradiance(0);
+      float variance = 0;
+      uint32_t usable = 0xffff;
+      if (elements.exposed[row] > 0) {
+        make_points(first_points, frames, elements, row, key, 0);
+        if (elements.exposed[row] < 1) usable &= ~find_buried_points(first_points, normal, faces, tracer);
+      } else {
+        usable = 0;
+      }
+      const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
+      for (uint32_t k = aims.patch_first[patch]; usable && k < aims.patch_first[patch + 1]; ++k) {
+        const uint64_t bit = uint64_t{1} << (k - aims.patch_first[patch]);
+        const Lamp& lamp = lamps[lamp_of[aims.lamp[k]]];
+        if (hidden & bit) continue;
+        if (!can_reach(corners, normal, lamp)) {
+          hidden |= bit;
+          continue;
+        }
+        const float factor = find_mean_factor(elements, frames, row, normal, corners, lamp, first_points, usable);
+        const Rgb emission = faces.emission[lamp.face];
+        if (factor == 0) continue;  // the lamp's horizon may still cross a part of the element
+        if (settled_seen & bit) {
+          irradiance += factor * emission;
+          continue;
+        }
+        VisibilitySums sums;
+        add_visibility(sums, first_points, usable, normal, lamp, frames, tracer, key, 0);
+        if (sums.reached > 0 && sums.reached < sums.rays)
+          for (uint32_t packet = 1; packet < packets_mixed; ++packet) {
+            make_points(points, frames, elements, row, key, packet);
+            const uint32_t open = usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
+            add_visibility(sums, points, open, normal, lamp, frames, tracer, key, packet);
+          }
+        cast += sums.rays;
+        const float visible = sums.all > 0 ? sums.seen / sums.all : 0;
+        if (sums.reached == sums.rays) seen |= bit;
+        if (sums.reached == 0) hidden |= bit;
+        irradiance += factor * visible * emission;
+        // Stratification makes N pairs worth about 3 N random ones (measured on half screens).
+        const float strength = factor * luminance(emission);
+        variance += strength * strength * visible * (1 - visible) / (3 * static_cast<float>(std::max(sums.rays, 1u)));
+      }
+      out.irradiance[row] = irradiance;
+      out.error[row] = std::sqrt(variance);
+      out.views.seen[row] = seen;
+      out.views.hidden[row] = hidden;
+    }
+    ray_count += cast;
+  });
+  return ray_count;
+}
+
+uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, std::span<const uint32_t> element_patch,
+                      const AimTable& aims, const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row) {
+  const uint32_t patch = element_patch[row];
+  uint64_t agreed = views.seen[row] | views.hidden[row];
+  for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
+    for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
+      if (other == kNone) continue;
+      const uint32_t other_patch = element_patch[other];
+      const uint32_t* mine = aims.lamp.data() + aims.patch_first[patch];
+      const uint32_t* mine_end = aims.lamp.data() + aims.patch_first[patch + 1];
+      const uint32_t* theirs = aims.lamp.data() + aims.patch_first[other_patch];
+      const uint32_t* theirs_end = aims.lamp.data() + aims.patch_first[other_patch + 1];
+      if (std::equal(mine, mine_end, theirs, theirs_end)) {
+        agreed &= (views.seen[row] & views.seen[other]) | (views.hidden[row] & views.hidden[other]);
+        continue;
+      }
+      // The other patch has a list of its own: walk both, ascending. A lamp that it does not aim at does not count.
+      const uint32_t* at = theirs;
+      for (const uint32_t* lamp = mine; lamp < mine_end; ++lamp) {
+        while (at < theirs_end && *at < *lamp) ++at;
+        if (at == theirs_end || *at != *lamp) continue;
+        const uint32_t my_bit = static_cast<uint32_t>(lamp - mine), their_bit = static_cast<uint32_t>(at - theirs);
+        const bool both_see = (views.seen[row] >> my_bit & 1u) && (views.seen[other] >> their_bit & 1u);
+        const bool both_hide = (views.hidden[row] >> my_bit & 1u) && (views.hidden[other] >> their_bit & 1u);
+        if (!both_see && !both_hide) agreed &= ~(uint64_t{1} << my_bit);
+      }
+    }
+  return agreed;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,278 @@
+// A view to weights: which vertex or element values make each pixel, and how much of each.
+#include "film.h"
+
+#include "parallel.h"
+#include "rows.h"
+#include "vertices.h"
+
+#include <atomic>
+#include <cassert>
+#include <limits>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kSide = 4;        // samples a pixel: 4 x 4
+constexpr uint32_t kSideLamps = 16;  // where a lamp's border shows: 16 x 16
+constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
+
+struct Pinhole {
+  Vec3 eye, right, up, forward;  // right and up are half the picture's width and height at distance 1
+};
+
+Pinhole make_pinhole(const View& view) {
+  const Vec3 forward = normalize(view.target - view.eye), right = normalize(cross(forward, view.up));
+  const float half_height = std::tan(view.fov_degrees * kPi / 360);
+  const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
+  return {view.eye, right * (half_height * aspect), cross(right, forward) * half_height, forward};
+}
+
+// One sample of the film: the element seen and where; kNone: background.
+struct Seen {
+  uint32_t element[kPacketSize];
+  Vec2 uv[kPacketSize];
+};
+
+uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t cell, uint32_t guess) {
+  // Neighbouring samples mostly show the same element.
+  if (guess != kNone && elements.face[guess] == face && cell >= elements.cell[guess] &&
+      cell - elements.cell[guess] < cell_span(elements.level[guess]))
+    return guess;
+  return find_leaf(elements, face, cell);
+}
+
+// Sixteen camera rays through the points (x, y) of the picture, in pixels from the top left.
+uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole, const View& view,
+              const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements, const Tracer& tracer) {
+  HitPacket packet;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float x = 2 * at[k].x / static_cast<float>(view.width) - 1;
+    const float y = 1 - 2 * at[k].y / static_cast<float>(view.height);
+    const Vec3 direction = normalize(pinhole.forward + x * pinhole.right + y * pinhole.up);
+    packet.ray.origin_x[k] = pinhole.eye.x, packet.ray.origin_y[k] = pinhole.eye.y;
+    packet.ray.origin_z[k] = pinhole.eye.z;
+    packet.ray.direction_x[k] = direction.x, packet.ray.direction_y[k] = direction.y;
+    packet.ray.direction_z[k] = direction.z;
+    packet.ray.near_distance[k] = 0, packet.ray.far_distance[k] = std::numeric_limits<float>::infinity();
+    seen.element[k] = kNone;
+  }
+  uint32_t active = 0xffff, guess = kNone;
+  uint64_t rays = 0;
+  for (uint32_t through = 0; active && through < kBackSidesMax; ++through) {
+    find_hits(tracer, packet, active);
+    rays += static_cast<uint64_t>(std::popcount(active));
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      if (!(active >> k & 1u)) continue;
+      const uint32_t face = packet.face[k];
+      RayPacket& r = packet.ray;
+      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
+      if (face != kNone && dot(direction, faces.normal[face]) >= 0) {
+        // A back side: go on just behind it.
+        const float reached = r.far_distance[k];
+        r.near_distance[k] = reached + 2 * ray_offset(pinhole.eye + reached * direction);
+        r.far_distance[k] = std::numeric_limits<float>::infinity();
+        continue;
+      }
+      active &= ~(1u << k);
+      if (face == kNone) continue;
+      seen.uv[k] = find_face_parameters(frames, face, pinhole.eye + r.far_distance[k] * direction);
+      seen.element[k] = guess = find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
+    }
+  }
+  return rays;
+}
+
+// The sum of one pixel under way: few distinct values, so a short list beats a map.
+struct PixelSum {
+  std::vector<uint32_t> value;
+  std::vector<float> weight;
+  void clear() { value.clear(), weight.clear(); }
+  void add(uint32_t v, float w) {
+    for (size_t k = value.size(); k-- > 0;)
+      if (value[k] == v) {
+        weight[k] += w;
+        return;
+      }
+    value.push_back(v), weight.push_back(w);
+  }
+};
+
+void add_sample(PixelSum& sum, const Solution& s, const Seen& seen, uint32_t k, float share, bool smooth) {
+  const uint32_t element = seen.element[k];
+  if (element == kNone) return;
+  if (!smooth) return sum.add(element, share);
+  const bool triangle = s.frames.triangle[s.elements.face[element]];
+  const CellFrame cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
+  // Rounding may put the point a hair outside its cell: no negative weights.
+  Vec2 st = clamp((seen.uv[k] - cell.origin) / cell.size, Vec2(0), Vec2(1));
+  const auto& corner = s.element_vertices.leaf_vertex[element];
+  if (triangle) {
+    if (st.x + st.y > 1) st /= st.x + st.y;
+    sum.add(corner[0], share * (1 - st.x - st.y));
+    sum.add(corner[1], share * st.x);
+    sum.add(corner[2], share * st.y);
+    return;
+  }
+  sum.add(corner[0], share * (1 - st.x) * (1 - st.y));
+  sum.add(corner[1], share * st.x * (1 - st.y));
+  sum.add(corner[2], share * st.x * st.y);
+  sum.add(corner[3], share * (1 - st.x) * st.y);
+}
+
+// Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is small and bright.
+std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pinhole, const View& view) {
+  constexpr float kSmallLamp = 32;  // pixels
+  std::vector<uint8_t> pixels(size_t{view.width} * view.height, 0);
+  const float width = static_cast<float>(view.width), height = static_cast<float>(view.height);
+  for (size_t f = 0; f < faces.size(); ++f) {
+    if (largest(faces.emission[f]) == 0) continue;
+    Vec2 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+    bool behind = false;
+    for (size_t k = 0; k < 4; ++k) {
+      const Vec3 way = faces.corners[f][k] - pinhole.eye;
+      const float depth = dot(way, pinhole.forward);
+      behind |= depth <= 0;
+      const Vec2 at(dot(way, pinhole.right) / dot(pinhole.right, pinhole.right) / depth,
+                    dot(way, pinhole.up) / dot(pinhole.up, pinhole.up) / depth);
+      low = min(low, at), high = max(high, at);
+    }
+    if (behind) continue;
+    const float left = (low.x + 1) / 2 * width, right = (high.x + 1) / 2 * width;
+    const float top = (1 - high.y) / 2 * height, bottom = (1 - low.y) / 2 * height;
+    if (right < 0 || bottom < 0 || left > width || top > height || std::max(right - left, bottom - top) > kSmallLamp)
+      continue;
+    const auto x_end = static_cast<uint32_t>(std::min(right + 2, width));
+    const auto y_end = static_cast<uint32_t>(std::min(bottom + 2, height));
+    for (auto y = static_cast<uint32_t>(std::max(top - 1, 0.0f)); y < y_end; ++y)
+      for (auto x = static_cast<uint32_t>(std::max(left - 1, 0.0f)); x < x_end; ++x)
+        pixels[size_t{y} * view.width + x] = 1;
+  }
+  return pixels;
+}
+
+// How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel on shows
+// another element lie on a line one pixel wide.
+std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, const Solution& s, const FaceTable& faces,
+                                   const Tracer& tracer) {
+  const size_t columns = size_t{view.width} * kSide, rows = size_t{view.height} * kSide;
+  std::vector<uint32_t> shown(columns * rows);
+  for_rows(size_t{view.width} * view.height, 256, [&](size_t begin, size_t end) {
+    Seen seen;
+    Vec2 at[kPacketSize];
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      const size_t x = pixel % view.width, y = pixel / view.width;
+      for (uint32_t k = 0; k < kPacketSize; ++k)
+        at[k] = Vec2(static_cast<float>(x), static_cast<float>(y)) +
+                (Vec2(static_cast<float>(k % kSide), static_cast<float>(k / kSide)) + 0.5f) / float{kSide};
+      look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+      for (uint32_t k = 0; k < kPacketSize; ++k)
+        shown[(y * kSide + k / kSide) * columns + x * kSide + k % kSide] = seen.element[k];
+    }
+  });
+  std::vector<float> cover(size_t{view.width} * view.height, 0);
+  for_rows(cover.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      uint32_t count = 0;
+      for (uint32_t k = 0; k < kPacketSize; ++k) {
+        const size_t x = pixel % view.width * kSide + k % kSide, y = pixel / view.width * kSide + k / kSide;
+        const size_t right = std::min(x + kSide, columns - 1), down = std::min(y + kSide, rows - 1);
+        const uint32_t here = shown[y * columns + x];
+        count += here != shown[y * columns + right] || here != shown[down * columns + x];
+      }
+      cover[pixel] = static_cast<float>(count) / kPacketSize;
+    }
+  });
+  return cover;
+}
+
+}  // namespace
+
+FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view,
+                    const FilmSettings& settings) {
+  assert(s.frozen);
+  assert(view.width > 0 && view.height > 0);
+  const Pinhole pinhole = make_pinhole(view);
+  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(faces, pinhole, view);
+  const size_t pixel_count = size_t{view.width} * view.height;
+  struct Chunk {
+    std::vector<uint32_t> value;
+    std::vector<float> weight;
+  };
+  // Chunks of whole pixels, joined in order: the rows of pixels are of different lengths.
+  constexpr size_t kChunk = 512;
+  std::vector<Chunk> chunks((pixel_count + kChunk - 1) / kChunk);
+  FilmTable film;
+  film.width = view.width, film.height = view.height;
+  film.pixel_first.assign(pixel_count + 1, 0);
+  std::atomic<uint64_t> ray_count{0};
+  for_rows(chunks.size(), 1, [&](size_t begin, size_t end) {
+    PixelSum sum;
+    Seen seen;
+    Vec2 at[kPacketSize];
+    uint64_t rays = 0;
+    for (size_t c = begin; c < end; ++c)
+      for (size_t pixel = c * kChunk; pixel < std::min((c + 1) * kChunk, pixel_count); ++pixel) {
+        const Vec2 corner(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width));
+        const uint64_t key = make_row_key(settings.seed, static_cast<uint32_t>(pixel), 0, 0, 0);
+        // side x side samples, a tile of 4 x 4 at a time.
+        const auto take = [&](uint32_t side) {
+          bool lamp = false, other = false;
+          sum.clear();
+          const uint32_t tiles = side / 4;
+          const float step = 1 / static_cast<float>(side), share = step * step;
+          for (uint32_t tile = 0; tile < tiles * tiles; ++tile) {
+            for (uint32_t k = 0; k < kPacketSize; ++k) {
+              const Vec2 stratum(static_cast<float>(tile % tiles * 4 + k % 4), static_cast<float>(tile / tiles * 4 + k / 4));
+              at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
+            }
+            rays += look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+            for (uint32_t k = 0; k < kPacketSize; ++k) {
+              add_sample(sum, s, seen, k, share, settings.smooth);
+              const bool on_lamp =
+                  seen.element[k] != kNone && largest(faces.emission[s.elements.face[seen.element[k]]]) > 0;
+              (on_lamp ? lamp : other) = true;
+            }
+          }
+          return lamp && other;
+        };
+        if (lamp_pixels[pixel]) {
+          take(kSideLamps);
+        } else if (take(kSide)) {
+          take(kSideLamps);
+        }
+        film.pixel_first[pixel + 1] = sum.value.size();
+        chunks[c].value.insert(chunks[c].value.end(), sum.value.begin(), sum.value.end());
+        chunks[c].weight.insert(chunks[c].weight.end(), sum.weight.begin(), sum.weight.end());
+      }
+    ray_count += rays;
+  });
+  for (size_t k = 0; k < pixel_count; ++k) film.pixel_first[k + 1] += film.pixel_first[k];
+  film.value.resize(film.pixel_first.back());
+  film.weight.resize(film.pixel_first.back());
+  for_rows(chunks.size(), 16, [&](size_t begin, size_t end) {
+    for (size_t c = begin; c < end; ++c) {
+      const auto first = static_cast<std::ptrdiff_t>(film.pixel_first[c * kChunk]);
+      std::copy(chunks[c].value.begin(), chunks[c].value.end(), film.value.begin() + first);
+      std::copy(chunks[c].weight.begin(), chunks[c].weight.end(), film.weight.begin() + first);
+      chunks[c] = {};
+    }
+  });
+  film.ray_count = ray_count;
+  if (settings.mesh_lines) film.line_cover = find_line_cover(view, pinhole, s, faces, tracer);
+  return film;
+}
+
+std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values) {
+  std::vector<Rgb> pixels(size_t{film.width} * film.height);
+  for_rows(pixels.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      Rgb sum(0);
+      for (uint64_t k = film.pixel_first[pixel]; k < film.pixel_first[pixel + 1]; ++k)
+        sum += film.weight[k] * values[film.value[k]];
+      pixels[pixel] = sum;
+    }
+  });
+  return pixels;
+}
+
+}  // namespace patchlight

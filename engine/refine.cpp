@@ -1,0 +1,75 @@
+// Differences between neighbours to marks.
+//
+// After the classroom rule: check neighbouring patches; if their radiosities differ more than a threshold, subdivide
+// both (Cohen, Greenberg, Immel, Brock 1986 split on gradients alike).
+#include "refine.h"
+
+#include "parallel.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace patchlight {
+namespace {
+
+constexpr float kFloorOfMean = 0.01f;   // differences below this share of the mean are not seen
+constexpr float kNoiseMargin = 3;       // standard errors that a difference must exceed
+
+// By how much the pair exceeds what is allowed, W/m2; 0 or less: it does not.
+float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float threshold) {
+  const Rgb va = input.elements.radiosity[a], vb = input.elements.radiosity[b];
+  const float difference = largest(abs(va - vb)), larger = std::max(largest(va), largest(vb));
+  const float noise = std::sqrt(input.error[a] * input.error[a] + input.error[b] * input.error[b]);
+  const float allowed = std::max(threshold * larger, kFloorOfMean * input.mean_radiosity) + kNoiseMargin * noise;
+  return difference > allowed ? difference : 0;
+}
+
+}  // namespace
+
+std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames, const FaceLinkTable& links,
+                                    float threshold, float patch_size_min, uint64_t patch_count_max) {
+  const PatchTable& elements = input.elements;
+  std::vector<float> excess(elements.size(), 0);  // the largest difference that each element has a part in
+  for_rows(input.fresh.size(), 512, [&](size_t begin, size_t end) {
+    // The same pair may be met from both sides: the maximum does not depend on the order.
+    const auto raise = [&](uint32_t row, float value) {
+      std::atomic_ref<float> slot(excess[row]);
+      float before = slot.load(std::memory_order_relaxed);
+      while (before < value && !slot.compare_exchange_weak(before, value, std::memory_order_relaxed)) {}
+    };
+    for (size_t k = begin; k < end; ++k) {
+      const uint32_t row = input.fresh[k];
+      if (elements.exposed[row] == 0) continue;
+      for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
+        for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
+          if (other == kNone || elements.exposed[other] == 0) continue;
+          if (const float value = find_excess(input, row, other, threshold); value > 0)
+            raise(row, value), raise(other, value);
+        }
+    }
+  });
+  std::vector<uint32_t> candidates;
+  for (uint32_t row = 0; row < elements.size(); ++row) {
+    if (excess[row] <= 0 || elements.level[row] >= kLevelMax - 1) continue;
+    const float edge =
+        longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
+    if (edge >= patch_size_min) candidates.push_back(row);
+  }
+  const uint64_t room = patch_count_max > elements.size() ? (patch_count_max - elements.size()) / 3 : 0;
+  if (candidates.size() > room) {
+    std::sort(candidates.begin(), candidates.end(), [&](uint32_t a, uint32_t b) {
+      const float wa = excess[a] * elements.area[a], wb = excess[b] * elements.area[b];
+      return wa != wb ? wa > wb : a < b;
+    });
+  }
+  // Splits for balance count towards the budget, too: take fewer until all fit.
+  for (size_t take = std::min<size_t>(candidates.size(), room); take > 0; take -= std::max<size_t>(take / 8, 1)) {
+    std::vector<uint8_t> marks(elements.size(), 0);
+    for (size_t k = 0; k < take; ++k) marks[candidates[k]] = 1;
+    mark_for_balance(marks, elements, frames, links);
+    if (static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1)) <= room) return marks;
+  }
+  return std::vector<uint8_t>(elements.size(), 0);
+}
+
+}  // namespace patchlight
