@@ -1,0 +1,89 @@
+// The layout as a test: who may include whom, and where each foreign library may be included.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Include {
+  std::string file;    // relative to the root of the sources
+  std::string header;  // as written between the quotes or brackets
+};
+
+std::vector<Include> find_includes() {
+  const std::filesystem::path root = PATCHLIGHT_SOURCE_DIR;
+  const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const char* folder : {"engine", "dsl", "tools"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending != ".h" && ending != ".cpp") continue;
+      std::ifstream file(entry.path());
+      std::smatch match;
+      for (std::string line; std::getline(file, line);)
+        if (std::regex_search(line, match, pattern))
+          includes.push_back({std::filesystem::relative(entry.path(), root).string(), match[1]});
+    }
+  return includes;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& beginnings) {
+  for (const std::string& beginning : beginnings)
+    if (text.starts_with(beginning)) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("each foreign library has one door") {
+  struct Door {
+    const char* headers;             // regular expression
+    std::vector<std::string> files;  // beginnings of the paths that may include them
+  };
+  const std::vector<Door> doors = {
+      {"^(tbb|oneapi)/", {"engine/parallel."}}, {"^embree", {"engine/tracer."}},
+      {"^glm/", {"engine/vector.h"}},           {"^yaml-cpp/", {"dsl/"}},
+      {"^stb", {"tools/export_png.cpp"}},       {"^tinyexr", {"tools/export_exr.cpp"}},
+      {"^CLI/", {"tools/command_line.cpp"}},    {"^nlohmann/", {"tools/json.h"}},
+  };
+  const std::vector<Include> includes = find_includes();
+  REQUIRE(includes.size() > 50);
+  for (const Door& door : doors) {
+    size_t used = 0;
+    for (const Include& include : includes) {
+      if (!std::regex_search(include.header, std::regex(door.headers))) continue;
+      ++used;
+      CHECK_MESSAGE(starts_with_any(include.file, door.files), include.file, " includes ", include.header);
+    }
+    CHECK_MESSAGE(used > 0, "nothing includes ", door.headers, ": is its name right?");
+  }
+}
+
+TEST_CASE("dependencies run one way: tools, dsl, engine") {
+  for (const Include& include : find_includes()) {
+    if (include.file.starts_with("engine/"))
+      CHECK_MESSAGE(!starts_with_any(include.header, {"dsl/", "tools/", "tests/"}), include.file,
+                    " includes ", include.header);
+    if (include.file.starts_with("dsl/"))
+      CHECK_MESSAGE(!starts_with_any(include.header, {"tools/", "tests/"}), include.file, " includes ",
+                    include.header);
+    CHECK_MESSAGE(include.header.find("..") == std::string::npos, include.file, " includes ", include.header);
+  }
+}
+
+TEST_CASE("the engine neither prints nor exits") {
+  const std::filesystem::path root = PATCHLIGHT_SOURCE_DIR;
+  const std::regex forbidden(
+      R"(\b(printf|puts|std::cout|std::cerr|std::clog|exit|abort|terminate)\s*(\(|<<))");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "engine")) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);)
+      CHECK_MESSAGE(!std::regex_search(line.substr(0, line.find("//")), forbidden), entry.path().string(),
+                    ": ", line);
+  }
+}

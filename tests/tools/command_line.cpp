@@ -1,0 +1,147 @@
+// Words of the command line: what they mean, and what is said of mistakes.
+#include "tools/command_line.h"
+
+#include "dsl/diagnostics.h"
+
+#include <doctest/doctest.h>
+
+using namespace patchlight;
+
+namespace {
+
+// The slug and message of the UserError that the words give, or an empty string.
+std::string find_mistake(const std::vector<std::string>& words) {
+  try {
+    parse_command_line(words);
+  } catch (const UserError& error) {
+    return error.diagnostics.front().slug + ": " + error.diagnostics.front().message;
+  }
+  return "";
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("render with all of its flags") {
+  const Options options = parse_command_line({"render",    "-o",          "lit",           "--passes",
+                                              "8",         "--snapshots", "4,1,4",         "--camera",
+                                              "door",      "--size",      "64x48",         "--mesh",
+                                              "--shading", "flat",        "--exposure",    "-3.5",
+                                              "--rays",    "32",          "--threads",     "3",
+                                              "--seed",    "7",           "--max-patches", "5000",
+                                              "--format",  "exr,csv,exr", "--report",      "r.json",
+                                              "--quiet",   "--color",     "never",         "room.yaml"});
+  CHECK(options.verb == Verb::kRender);
+  CHECK(options.scene == "room.yaml");
+  CHECK(options.out == "lit");
+  CHECK(options.passes == 8u);
+  CHECK(options.snapshots == std::vector<uint32_t>{1, 4});
+  CHECK(options.camera == "door");
+  CHECK((*options.size)[0] == 64);
+  CHECK((*options.size)[1] == 48);
+  CHECK(options.mesh);
+  CHECK((options.shading == Shading::kFlat));
+  CHECK(options.exposure_ev == -3.5);
+  CHECK(options.rays == 32u);
+  CHECK(options.threads == 3u);
+  CHECK(options.seed == 7u);
+  CHECK(options.max_patches == 5000u);
+  CHECK(options.formats == std::vector<std::string>{"exr", "csv"});
+  CHECK(options.report == "r.json");
+  CHECK(options.quiet);
+  CHECK((options.color == ColorChoice::kNever));
+}
+
+TEST_CASE("what is not asked for is left to the scene") {
+  const Options options = parse_command_line({"render", "-"});
+  CHECK(options.scene == "-");
+  CHECK(options.out == "out");
+  CHECK(!options.passes);
+  CHECK(options.snapshots.empty());
+  CHECK(!options.snapshots_all);
+  CHECK(!options.exposure_ev);
+  CHECK(!options.exposure_auto);
+  CHECK(options.formats == std::vector<std::string>{"png"});
+}
+
+TEST_CASE("words in place of numbers: --snapshots all, --exposure auto") {
+  const Options options = parse_command_line({"render", "a.yaml", "--snapshots=all", "--exposure=auto"});
+  CHECK(options.snapshots_all);
+  CHECK(options.exposure_auto);
+}
+
+TEST_CASE("mistakes on the command line are usage errors that say what was meant") {
+  struct Mistake {
+    std::vector<std::string> words;
+    const char* said;
+  };
+  const std::vector<Mistake> mistakes = {
+      {{}, "expected a verb"},
+      {{"rendr", "a.yaml"}, "did you mean 'render'?"},
+      {{"bench"}, "no verb 'bench'"},
+      {{"--mesh"}, "no flag '--mesh'"},
+      {{"render"}, "SCENE is required"},
+      {{"render", ""}, "expected a scene file"},
+      {{"render", "a.yaml", "b.yaml"}, "'b.yaml' is one argument too many"},
+      {{"render", "--pases", "3", "a.yaml"}, "no flag '--pases'; did you mean '--passes'?"},
+      {{"render", "a.yaml", "--resume"}, "no flag '--resume'"},
+      {{"check", "a.yaml", "--mesh"}, "check has no flag '--mesh'"},
+      {{"render", "a.yaml", "--passes"}, "--passes: expected exactly one value"},
+      {{"render", "a.yaml", "--passes", "1", "--passes", "2"}, "--passes: expected exactly one value"},
+      {{"render", "a.yaml", "--mesh=3"}, "--mesh: takes no value"},
+      {{"render", "a.yaml", "--passes", "0"}, "0 is outside 1 to 10000"},
+      {{"render", "a.yaml", "--passes", "nan"}, "expected a whole number"},
+      {{"render", "a.yaml", "--passes", "010"}, "expected a whole number"},
+      {{"render", "a.yaml", "--passes", "1e2"}, "expected a whole number"},
+      {{"render", "a.yaml", "--passes", "-1"}, "expected a whole number"},
+      {{"render", "a.yaml", "--passes", "99999999999999999999999"}, "outside"},
+      {{"render", "a.yaml", "--threads", "0"}, "0 is outside 1 to 1024"},
+      {{"render", "a.yaml", "--threads", "1000000"}, "outside 1 to 1024"},
+      {{"render", "a.yaml", "--exposure", "nan"}, "expected a number"},
+      {{"render", "a.yaml", "--exposure", "inf"}, "expected a number"},
+      {{"render", "a.yaml", "--exposure", "1e999"}, "outside -100 to 100"},
+      {{"render", "a.yaml", "--exposure", "3,5"}, "expected a number"},
+      {{"render", "a.yaml", "--snapshots", "1,,2"}, "found '', expected a whole number"},
+      {{"render", "a.yaml", "--snapshots", "0"}, "0 is outside"},
+      {{"render", "a.yaml", "--size", "640"}, "expected WIDTHxHEIGHT"},
+      {{"render", "a.yaml", "--size", "640x0"}, "0 is outside"},
+      {{"render", "a.yaml", "--shading", "round"}, "expected one of smooth, flat"},
+      {{"render", "a.yaml", "--format", "pgn"}, "did you mean 'png'?"},
+      {{"render", "a.yaml", "--color", "often"}, "expected one of auto, always, never"},
+      {{"render", "a.yaml", "-o", ""}, "expected a directory"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const std::string said = find_mistake(mistake.words);
+    CAPTURE(said);
+    CHECK(said.starts_with("usage: "));
+    CHECK_MESSAGE(has(said, mistake.said), mistake.said);
+  }
+}
+
+TEST_CASE("text from the command line is printed escaped") {
+  const std::string said = find_mistake({"render", "a.yaml", "--passes", "\x1b[31m"});
+  CHECK(!has(said, "\x1b"));
+}
+
+TEST_CASE("help leads with examples") {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"}, {"render", "--help"}, {"check", "-h"}}) {
+    const Options options = parse_command_line(words);
+    CHECK((options.verb == Verb::kPrinted));
+    CHECK(options.text.find("Examples:") < options.text.find("Usage:"));
+  }
+  CHECK(has(parse_command_line({"--version"}).text, "patchlight "));
+}
+
+TEST_CASE("numbers are read whole") {
+  CHECK(parse_number("--exposure", "-.5", -1, 1) == -0.5);
+  CHECK(parse_number("--exposure", "0.25", -1, 1) == 0.25);
+  CHECK(parse_number("--exposure", "0", -1, 1) == 0);
+  CHECK(parse_number("--exposure", "1e-2", -1, 1) == 0.01);
+  for (const char* text : {"", "-", "+1", " 1", "1 ", "0x1", "1.5m", "01"})
+    CHECK_THROWS_AS(parse_number("--exposure", text, -10, 10), UserError);
+  CHECK(parse_count("--seed", "0", 0, 10) == 0);
+  CHECK(parse_count("--seed", "18446744073709551615", 0, ~uint64_t{0}) == ~uint64_t{0});
+  CHECK_THROWS_AS(parse_count("--seed", "18446744073709551616", 0, ~uint64_t{0}), UserError);
+}

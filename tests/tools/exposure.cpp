@@ -1,0 +1,66 @@
+// How bright a picture is, and what of it a display shows.
+#include "tools/exposure.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace patchlight;
+
+TEST_CASE("nine tenths of a picture stay below display-linear 0.65") {
+  // 1..100: the 90th percentile is 91, so EV is log2(0.65 / 91) = -7.13.
+  std::vector<float> luminances;
+  for (int k = 100; k >= 1; --k) luminances.push_back(static_cast<float>(k));
+  CHECK(pick_exposure_ev(luminances) == doctest::Approx(-7.13).epsilon(1e-12));
+}
+
+TEST_CASE("a few bright spots do not darken the room") {
+  std::vector<float> luminances(1000, 1.0f);
+  for (size_t k = 0; k < 50; ++k) luminances[k] = 1e6f;
+  CHECK(pick_exposure_ev(luminances) == doctest::Approx(std::round(std::log2(0.65) * 100) / 100));
+}
+
+TEST_CASE("black pixels do not brighten the rest, and a black picture has EV 0") {
+  std::vector<float> luminances(1000, 0.0f);
+  CHECK(pick_exposure_ev(luminances) == 0);
+  CHECK(pick_exposure_ev({}) == 0);
+  luminances[3] = 0.65f;
+  CHECK(pick_exposure_ev(luminances) == 0);
+}
+
+TEST_CASE("shown values are B times 2^EV, clipped to 0..1") {
+  const std::vector<Rgb> values = {Rgb(0.25f, 1, 100), Rgb(0)};
+  const std::vector<Rgb> shown = expose_values(values, -1);
+  CHECK(shown[0].r == 0.125f);
+  CHECK(shown[0].g == 0.5f);
+  CHECK(shown[0].b == 1);
+  CHECK(shown[1].r == 0);
+}
+
+TEST_CASE("pixels that show a lamp or nothing do not count for the exposure") {
+  // Two faces of one element each, the second a lamp; four pixels: wall, lamp, half and half, nothing.
+  FaceTable faces;
+  faces.emission = {Rgb(0), Rgb(10)};
+  Solution solution;
+  solution.elements.face = {0, 1};
+  FilmTable film;
+  film.width = 4;
+  film.height = 1;
+  film.pixel_first = {0, 1, 2, 4, 4};
+  film.value = {0, 1, 0, 1};
+  film.weight = {1, 1, 0.5f, 0.5f};
+  const std::vector<Rgb> values = {Rgb(3), Rgb(10)};
+  std::vector<float> luminances;
+  collect_luminances(luminances, film, values, solution, faces, false);
+  REQUIRE(luminances.size() == 1);
+  CHECK(luminances[0] == doctest::Approx(3));
+}
+
+TEST_CASE("lines of the mesh darken light ground and stay visible on black") {
+  std::vector<Rgb> pixels = {Rgb(1), Rgb(0), Rgb(0.5f)};
+  const std::vector<float> cover = {1, 1, 0};
+  draw_mesh_lines(pixels, cover);
+  CHECK(luminance(pixels[0]) < 0.6f);
+  CHECK(luminance(pixels[1]) > 0.01f);
+  CHECK(pixels[2].r == 0.5f);
+}

@@ -1,0 +1,127 @@
+// What a run will do, from scene and flags.
+#include "tools/plan.h"
+
+#include "dsl/diagnostics.h"
+
+#include <doctest/doctest.h>
+
+using namespace patchlight;
+
+namespace {
+
+Scene make_scene() {
+  Scene scene;
+  scene.file = "rooms/room.yaml";
+  scene.cameras.push_back(Camera{});
+  return scene;
+}
+
+template <class Call>
+std::string find_slug(Call call) {
+  try {
+    call();
+  } catch (const UserError& error) {
+    return error.diagnostics.front().slug;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("snapshots are 1, 2, 16 unless named, and none is later than the last pass") {
+  using Passes = std::vector<uint32_t>;
+  CHECK(pick_snapshots({}, false, 16) == Passes{1, 2, 16});
+  CHECK(pick_snapshots({}, false, 40) == Passes{1, 2, 16});
+  CHECK(pick_snapshots({}, false, 8) == Passes{1, 2, 8});
+  CHECK(pick_snapshots({}, false, 2) == Passes{1, 2});
+  CHECK(pick_snapshots({}, false, 1) == Passes{1});
+  CHECK(pick_snapshots({3, 5}, false, 5) == Passes{3, 5});
+  CHECK(pick_snapshots({}, true, 3) == Passes{1, 2, 3});
+}
+
+TEST_CASE("a named snapshot beyond the passes is an error") {
+  CHECK(find_slug([] { pick_snapshots({1, 6}, false, 5); }) == "snapshot-beyond-passes");
+}
+
+TEST_CASE("files are named after the scene") {
+  CHECK(pick_stem("rooms/room.yaml", "") == "room");
+  CHECK(pick_stem("room.yml", "") == "room");
+  CHECK(pick_stem("room.v2.yaml", "") == "room.v2");
+  CHECK(pick_stem("room", "") == "room");
+  CHECK(pick_stem(".yaml", "") == ".yaml");
+  CHECK(pick_stem("<stdin>", "") == "scene");
+  CHECK(pick_stem("rooms/room.yaml", "%s%n") == "%s%n");
+}
+
+TEST_CASE("names of pictures say pass, camera, shading and mesh") {
+  Scene scene = make_scene();
+  Options options;
+  Plan plan = make_plan(scene, options);
+  const Exporter& png = find_exporter("png");
+  const Exporter& exr = find_exporter("exr");
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 1, png) == "room-pass-01.png");
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 1234, exr) == "room-pass-1234.exr");
+
+  scene.cameras = {Camera{}, Camera{}};
+  scene.cameras[0].name = "door";
+  scene.cameras[1].name = "window";
+  options.camera = "window";
+  options.mesh = true;
+  options.shading = Shading::kFlat;
+  plan = make_plan(scene, options);
+  REQUIRE(plan.cameras.size() == 1);
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 16, png) == "room-window-pass-16-flat-mesh.png");
+  // An EXR holds numbers: no lines are drawn into it.
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 16, exr) == "room-window-pass-16-flat.exr");
+}
+
+TEST_CASE("flags are stronger than the scene") {
+  Scene scene = make_scene();
+  scene.solver.pass_count_max = 4;
+  scene.solver.rays = 10;
+  scene.output.snapshots = {1, 4};
+  scene.output.exposure_ev = 2;
+  Options options;
+  options.passes = 9;
+  options.snapshots = {9};
+  options.exposure_auto = true;
+  options.size = {{32, 24}};
+  const Plan plan = make_plan(scene, options);
+  CHECK(scene.solver.pass_count_max == 9);
+  CHECK(scene.solver.rays == 10);
+  CHECK(plan.snapshots == std::vector<uint32_t>{9});
+  CHECK(!scene.output.exposure_ev);
+  CHECK(plan.cameras[0].width == 32);
+  CHECK(plan.cameras[0].height == 24);
+}
+
+TEST_CASE("a camera that is not there is a usage error") {
+  Scene scene = make_scene();
+  Options options;
+  options.camera = "door";
+  CHECK(find_slug([&] { make_plan(scene, options); }) == "usage");
+}
+
+TEST_CASE("names of files stay in their folder") {
+  Scene scene = make_scene();
+  scene.output.basename = "../evil";
+  CHECK(find_slug([&] { make_plan(scene, Options{}); }) == "output-outside-dir");
+}
+
+TEST_CASE("pictures have limits: a side and all pixels") {
+  Scene scene = make_scene();
+  Options options;
+  for (const std::array<uint32_t, 2> size : {std::array<uint32_t, 2>{16385, 1}, {1, 16385}, {16384, 16384}}) {
+    options.size = size;
+    const Plan plan = make_plan(scene, options);
+    CHECK(find_slug([&] { check_limits(scene, plan); }) == "image-too-large");
+  }
+}
+
+TEST_CASE("counts and bytes read the same in every locale") {
+  CHECK(format_count(999999) == "999999");
+  CHECK(format_count(1234567) == "1.23 million");
+  CHECK(format_count(4500000000) == "4.5 billion");
+  CHECK(format_bytes(84300000) == "84.3 MB");
+  CHECK(format_bytes(2500000000) == "2.5 GB");
+}

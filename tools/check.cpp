@@ -1,0 +1,39 @@
+// The verb check: everything that render does before it takes memory.
+#include "check.h"
+
+#include "dsl/load.h"
+#include "memory.h"
+#include "plan.h"
+
+#include <fmt/format.h>
+
+namespace patchlight {
+
+int check(const Options& options, Talk& talk) {
+  if (!options.json) check_standard_output();
+  std::vector<Diagnostic> warnings;
+  Scene scene = load_scene(options.scene, warnings);
+  say_diagnostics(talk, warnings);
+  const Plan plan = make_plan(scene, options);
+  check_limits(scene, plan);
+  if (options.json) return 0;
+
+  const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
+  std::string text = fmt::format(
+      "{}: {}\n"
+      "polygons          {}\n"
+      "faces             {}\n"
+      "starting patches  {} of {} at most\n"
+      "memory            {} at most, {} available\n",
+      escape_text(scene.file, 200),
+      warnings.empty() ? "right" : fmt::format("right, with {} warnings", warnings.size()),
+      scene.polygons.size(), scene.faces.size(), patches, scene.solver.patch_count_max,
+      format_bytes(forecast_run_bytes(scene, plan)), format_bytes(find_memory_available()));
+  for (const Camera& camera : plan.cameras)
+    text += fmt::format("camera            {}{}{} x {}\n", camera.name, camera.name.empty() ? "" : ", ",
+                        camera.width, camera.height);
+  print_result(text);
+  return 0;
+}
+
+}  // namespace patchlight

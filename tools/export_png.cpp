@@ -1,0 +1,65 @@
+// Display-linear pixels -> PNG in memory, by stb_image_write. Its own file functions report success on a full
+// disk, so it never sees a file.
+#include "exporters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+namespace patchlight {
+namespace {
+
+// The transfer function of sRGB (IEC 61966-2-1).
+float encode_srgb(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+// Ordered dither (Bayer: An Optimum Method for Two-Level Rendition of Continuous-Tone Pictures, 1973): smooth
+// walls would show bands of equal bytes. In (0, 1), so that 0 stays 0 and 1 stays 255.
+constexpr std::array<std::array<float, 8>, 8> make_bayer() {
+  std::array<std::array<float, 8>, 8> table{};
+  for (unsigned y = 0; y < 8; ++y)
+    for (unsigned x = 0; x < 8; ++x) {
+      unsigned order = 0;
+      for (unsigned bit = 0; bit < 3; ++bit) {
+        const unsigned a = (x >> bit) & 1u, b = (y >> bit) & 1u;
+        order |= (((a ^ b) << 1) | b) << (2 * (2 - bit));
+      }
+      table[y][x] = (static_cast<float>(order) + 0.5f) / 64;
+    }
+  return table;
+}
+constexpr auto kBayer = make_bayer();
+
+void take_bytes(void* context, void* data, int size) {
+  static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+}
+
+}  // namespace
+
+std::string encode_png(const Picture& picture) {
+  const size_t width = picture.width;
+  std::string bytes(width * picture.height * 3, '\0');
+  for (size_t y = 0; y < picture.height; ++y)
+    for (size_t x = 0; x < width; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const float linear = std::clamp(picture.pixels[y * width + x][k], 0.0f, 1.0f);
+        const float level = 255 * encode_srgb(linear) + kBayer[y % 8][x % 8];
+        bytes[(y * width + x) * 3 + static_cast<size_t>(k)] = static_cast<char>(static_cast<uint8_t>(level));
+      }
+  std::string file;
+  // The sizes are int: the limits on images keep them far below 2^31.
+  const int done =
+      stbi_write_png_to_func(take_bytes, &file, static_cast<int>(width), static_cast<int>(picture.height), 3,
+                             bytes.data(), static_cast<int>(width * 3));
+  if (done == 0) throw std::bad_alloc();
+  return file;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,121 @@
+// A finished run -> S-report.json.
+#include "export_report.h"
+
+#include "json.h"
+#include "memory.h"
+#include "version.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace patchlight {
+namespace {
+
+constexpr int kReportVersion = 1;
+constexpr size_t kWorstCount = 5;
+
+Json rgb(const DRgb& value) { return {value.r, value.g, value.b}; }
+
+// The polygons whose rows sum to least: where light leaves, or leaks.
+Json make_form_factors(const std::vector<double>& row_sums, const PolygonTable& polygons) {
+  std::vector<size_t> order;
+  for (size_t polygon = 0; polygon < row_sums.size(); ++polygon)
+    if (row_sums[polygon] >= 0) order.push_back(polygon);
+  if (order.empty()) return {};
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return row_sums[a] < row_sums[b]; });
+  Json worst = Json::array();
+  for (const size_t polygon : order) {
+    if (worst.size() == kWorstCount || row_sums[polygon] >= 1) break;
+    worst.push_back({{"polygon", polygons.id[polygon]}, {"row_sum", row_sums[polygon]}});
+  }
+  return {
+      {"row_sum_min", row_sums[order.front()]}, {"row_sum_max", row_sums[order.back()]}, {"worst", worst}};
+}
+
+}  // namespace
+
+std::vector<double> find_row_sums(const Solution& solution, const FaceTable& faces, size_t polygon_count) {
+  const PatchTable& patches = solution.patches;
+  const HitTable& hits = solution.hits;
+  std::vector<double> area(polygon_count, 0), met(polygon_count, 0);
+  if (hits.patch.size() == patches.size() * hits.ray_count)
+    for (size_t row = 0; row < patches.size(); ++row) {
+      size_t cast = 0, hit = 0;
+      for (size_t ray = row * hits.ray_count; ray < (row + 1) * hits.ray_count; ++ray) {
+        cast += hits.patch[ray] != kHitBuried;
+        hit += hits.patch[ray] != kHitBuried && hits.patch[ray] != kHitNothing;
+      }
+      if (cast == 0) continue;
+      const uint32_t polygon = faces.polygon[patches.face[row]];
+      area[polygon] += patches.area[row];
+      met[polygon] += patches.area[row] * static_cast<double>(hit) / static_cast<double>(cast);
+    }
+  for (size_t polygon = 0; polygon < polygon_count; ++polygon)
+    met[polygon] = area[polygon] > 0 ? std::min(met[polygon] / area[polygon], 1.0) : -1;
+  return met;
+}
+
+uint64_t count_rays(const RunReport& report, const Solution& solution) {
+  uint64_t rays = report.film_rays;
+  for (const RoundReport& round : solution.rounds) rays += round.ray_count;
+  for (const PassReport& pass : solution.passes) rays += pass.ray_count;
+  return rays;
+}
+
+std::string format_report(const RunReport& report, const Scene& scene, const Solution& solution) {
+  // Areas are in engine lengths squared, powers in W/m2 times that.
+  const double metres_per_length = scene.units_per_length * scene.metres_per_unit;
+  const double power_scale = metres_per_length * metres_per_length;
+  Json json;
+  json["patchlight"] = version_number();
+  json["report_version"] = kReportVersion;
+  json["scene"] = scene.file;
+  if (!scene.title.empty()) json["title"] = scene.title;
+  json["units"] = scene.units;
+  json["polygons"] = scene.polygons.size();
+  json["faces"] = scene.faces.size();
+  json["patches"] = solution.elements.size();
+  json["threads"] = report.thread_count;
+  if (report.solution_hash) json["solution_hash"] = fmt::format("{:016x}", *report.solution_hash);
+  if (report.exposure_ev) json["exposure"] = *report.exposure_ev;
+
+  json["rounds"] = Json::array();
+  for (const RoundReport& round : solution.rounds)
+    json["rounds"].push_back({{"round", round.round},
+                              {"patches", round.patch_count},
+                              {"split", round.split_count},
+                              {"rays", round.ray_count},
+                              {"seconds", round.seconds}});
+  json["passes"] = Json::array();
+  for (const PassReport& pass : solution.passes)
+    // What a pass adds is what the next one sends.
+    json["passes"].push_back({{"pass", pass.pass},
+                              {"rays", pass.ray_count},
+                              {"added_power", rgb(pass.added_power * power_scale)},
+                              {"unshot_power", rgb(pass.added_power * power_scale)},
+                              {"seconds", pass.seconds}});
+  json["stopped"] = {{"reason", report.stopped_reason}, {"pass", solution.passes.size()}};
+  if (!report.stopped_signal.empty()) json["stopped"]["signal"] = report.stopped_signal;
+  if (report.power)
+    json["power"] = {{"emitted", rgb(report.power->emitted * power_scale)},
+                     {"absorbed", rgb(report.power->absorbed * power_scale)},
+                     {"escaped", rgb(report.power->escaped * power_scale)},
+                     {"unshot", rgb(report.power->unshot * power_scale)},
+                     {"closure_error", report.power->closure_error}};
+
+  const StageSeconds& seconds = report.seconds;
+  json["seconds"] = {{"load", seconds.load},   {"trace", seconds.trace},   {"split", seconds.split},
+                     {"solve", seconds.solve}, {"render", seconds.render}, {"write", seconds.write},
+                     {"total", seconds.total}};
+  json["bytes"] = {{"solution", count_bytes(solution)},
+                   {"film", report.film_bytes},
+                   {"forecast", report.forecast_bytes},
+                   {"peak", find_memory_peak()}};
+  const Json form_factors = make_form_factors(report.row_sums, scene.polygons);
+  if (!form_factors.is_null()) json["form_factors"] = form_factors;
+  return format_json(json);
+}
+
+}  // namespace patchlight

@@ -1,0 +1,171 @@
+// Options over scene -> Plan, and the limits.
+#include "plan.h"
+
+#include "dsl/diagnostics.h"
+#include "dsl/limits.h"
+#include "engine/film.h"
+#include "memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace patchlight {
+namespace {
+
+// Measured on rooms: a smooth pixel names about twelve vertices, one at a lamp's border several times as
+// many.
+constexpr uint64_t kFilmBytesPerPixel = 256;
+// Exposed values, two pictures on their way to a file, bytes and compressor.
+constexpr uint64_t kPictureBytesPerPixel = 96;
+
+template <class Value, class Asked>
+void override_with(Value& value, const std::optional<Asked>& asked) {
+  if (asked) value = static_cast<Value>(*asked);
+}
+
+std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
+  std::vector<Camera> cameras = scene.cameras;
+  if (!options.camera.empty()) {
+    std::vector<std::string> names;
+    for (const Camera& camera : cameras)
+      if (!camera.name.empty()) names.push_back(camera.name);
+    std::erase_if(cameras, [&](const Camera& camera) { return camera.name != options.camera; });
+    const std::string near = did_you_mean(options.camera, names);
+    if (cameras.empty())
+      throw UserError("usage",
+                      fmt::format("--camera: the scene has no camera '{}'{}", escape_text(options.camera),
+                                  names.empty()  ? "; it names none"
+                                  : near.empty() ? ""
+                                                 : fmt::format("; did you mean '{}'?", near)));
+  }
+  if (options.size)
+    for (Camera& camera : cameras) {
+      camera.width = (*options.size)[0];
+      camera.height = (*options.size)[1];
+    }
+  return cameras;
+}
+
+}  // namespace
+
+bool Plan::has_pictures() const {
+  return std::any_of(exporters.begin(), exporters.end(),
+                     [](const Exporter* exporter) { return exporter->pixels != PixelKind::kNoPixels; });
+}
+
+std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count) {
+  std::vector<uint32_t> passes;
+  if (all) {
+    for (uint32_t pass = 1; pass <= pass_count; ++pass) passes.push_back(pass);
+  } else if (asked.empty()) {
+    for (const uint32_t pass : {1u, 2u, 16u}) passes.push_back(std::min(pass, pass_count));
+    passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
+  } else {
+    passes = asked;
+    if (passes.back() > pass_count)
+      throw UserError(
+          "snapshot-beyond-passes",
+          fmt::format("snapshot {} is asked for, but the run has {} passes at most; raise passes or "
+                      "ask for earlier snapshots",
+                      passes.back(), pass_count));
+  }
+  return passes;
+}
+
+std::string pick_stem(const std::string& scene_file, const std::string& basename) {
+  if (!basename.empty()) return basename;
+  if (scene_file == "-" || scene_file == "<stdin>") return "scene";
+  std::string stem = scene_file.substr(scene_file.rfind('/') + 1);
+  for (const std::string_view ending : {".yaml", ".yml"})
+    if (stem.size() > ending.size() && stem.ends_with(ending)) {
+      stem.resize(stem.size() - ending.size());
+      break;
+    }
+  return stem;
+}
+
+Plan make_plan(Scene& scene, const Options& options) {
+  override_with(scene.solver.pass_count_max, options.passes);
+  override_with(scene.solver.rays, options.rays);
+  override_with(scene.solver.seed, options.seed);
+  override_with(scene.solver.patch_count_max, options.max_patches);
+  override_with(scene.output.shading, options.shading);
+  if (options.exposure_auto) scene.output.exposure_ev.reset();
+  if (options.exposure_ev) scene.output.exposure_ev = options.exposure_ev;
+  if (!options.snapshots.empty()) scene.output.snapshots = options.snapshots;
+
+  Plan plan;
+  plan.stem = pick_stem(scene.file, scene.output.basename);
+  if (plan.stem.empty() || plan.stem.find('/') != std::string::npos)
+    throw UserError("output-outside-dir",
+                    fmt::format("'{}' cannot begin the names of files", escape_text(plan.stem)));
+  plan.snapshots = pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
+  plan.cameras = pick_cameras(scene, options);
+  plan.cameras_named = scene.cameras.size() > 1;
+  plan.mesh = options.mesh;
+  for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
+  return plan;
+}
+
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+                              const Exporter& exporter) {
+  const bool flat = scene.output.shading == Shading::kFlat;
+  const bool mesh = plan.mesh && exporter.pixels == PixelKind::kDisplay;
+  return fmt::format("{}{}{}-pass-{:02}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
+                     plan.cameras_named ? camera.name : "", pass, flat ? "-flat" : "", mesh ? "-mesh" : "",
+                     exporter.format);
+}
+
+uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
+  uint64_t bytes = forecast_bytes(scene.faces, scene.solver);
+  if (!plan.has_pictures()) return bytes;
+  uint64_t pixels_largest = 0;
+  for (const Camera& camera : plan.cameras) {
+    const uint64_t pixels = uint64_t{camera.width} * camera.height;
+    pixels_largest = std::max(pixels_largest, pixels);
+    bytes += pixels * kFilmBytesPerPixel;
+  }
+  return bytes + pixels_largest * kPictureBytesPerPixel;
+}
+
+void check_limits(const Scene& scene, const Plan& plan) {
+  for (const Camera& camera : plan.cameras) {
+    const uint64_t pixels = uint64_t{camera.width} * camera.height;
+    if (camera.width > kImageSideMax || camera.height > kImageSideMax || pixels > kImagePixelsMax)
+      throw UserError("image-too-large",
+                      fmt::format("a picture of {} x {} pixels is asked for; the limits are {} a side and {} "
+                                  "pixels; set size lower",
+                                  camera.width, camera.height, kImageSideMax, kImagePixelsMax),
+                      scene.file);
+  }
+  const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
+  if (patches > scene.solver.patch_count_max)
+    throw UserError("too-many-patches",
+                    fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches or "
+                                "patch_size",
+                                patches, scene.solver.patch_count_max),
+                    scene.file);
+  const uint64_t bytes = forecast_run_bytes(scene, plan);
+  const uint64_t available = find_memory_available();
+  if (bytes > available)
+    throw UserError("memory-limit",
+                    fmt::format("the run may need {} and {} are available; lower max_patches, rays or size",
+                                format_bytes(bytes), format_bytes(available)),
+                    scene.file);
+}
+
+std::string format_count(uint64_t count) {
+  const double value = static_cast<double>(count);
+  if (count >= 1'000'000'000) return fmt::format("{:.3g} billion", value * 1e-9);
+  if (count >= 1'000'000) return fmt::format("{:.3g} million", value * 1e-6);
+  return fmt::format("{}", count);
+}
+
+std::string format_bytes(uint64_t bytes) {
+  const double value = static_cast<double>(bytes);
+  if (value >= 1e9) return fmt::format("{:.1f} GB", value * 1e-9);
+  return fmt::format("{:.1f} MB", value * 1e-6);
+}
+
+}  // namespace patchlight

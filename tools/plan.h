@@ -1,0 +1,49 @@
+// Scene file and flags -> what this run will do, and whether it may.
+#pragma once
+
+#include "exporters.h"
+#include "options.h"
+
+#include <string>
+#include <vector>
+
+namespace patchlight {
+
+struct Plan {
+  std::string stem;                 // S in the names of files
+  std::vector<uint32_t> snapshots;  // passes to picture: ascending, not empty, none beyond the last
+  std::vector<Camera> cameras;      // the asked ones, with the asked size
+  bool cameras_named = false;       // the scene has several: names of files hold the camera's
+  bool mesh = false;
+  std::vector<const Exporter*> exporters;
+  bool has_pictures() const;
+};
+
+// Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
+// Throws UserError: usage for a camera that the scene does not have; snapshot-beyond-passes;
+// output-outside-dir.
+Plan make_plan(Scene& scene, const Options& options);
+
+// The passes to picture, of a run of `pass_count`. `asked` is empty where nobody named any: then 1, 2 and 16,
+// none later than the last pass. Throws UserError (snapshot-beyond-passes).
+std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count);
+
+// The scene file's name without its folder and .yaml; "scene" for standard input.
+std::string pick_stem(const std::string& scene_file, const std::string& basename);
+
+// S-pass-02-flat-mesh.png and the like.
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+                              const Exporter& exporter);
+
+// Bytes that the run will hold at its peak, an upper estimate.
+uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);
+
+// Throws UserError: image-too-large, too-many-patches, memory-limit, each with the number found and the
+// limit.
+void check_limits(const Scene& scene, const Plan& plan);
+
+// 1234567 as "1.23 million", bytes as "84 MB": for people, the same in every locale.
+std::string format_count(uint64_t count);
+std::string format_bytes(uint64_t bytes);
+
+}  // namespace patchlight

@@ -1,0 +1,286 @@
+// The verb render. The run is a straight line: load, make the tables, refine, look, then pass by pass; each
+// asked picture is on its way to its file as soon as its pass is done.
+#include "render.h"
+
+#include "dsl/load.h"
+#include "engine/film.h"
+#include "engine/parallel.h"
+#include "export_report.h"
+#include "exposure.h"
+#include "files.h"
+#include "stop.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+namespace patchlight {
+namespace {
+
+struct Stopwatch {
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  // Seconds since it was made or last asked.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start, now)).count();
+  }
+};
+
+// All that a run gathers.
+struct Run {
+  Talk& talk;
+  Scene scene{};
+  Plan plan{};
+  std::string folder{};
+  Solution solution{};
+  std::vector<FilmTable> films{};  // a row a camera, once made
+  RunReport report{};
+  std::vector<std::string> tables{}, pictures{};  // paths of files, written or on their way
+  JobQueue jobs{};
+};
+
+size_t start_threads(const Options& options, Talk& talk) {
+  const size_t asked = options.threads ? *options.threads : thread_count_default();
+  const size_t granted = set_thread_count(asked);
+  if (granted < asked) say(talk, fmt::format("the system grants {} of {} threads", granted, asked));
+  return granted;
+}
+
+View make_view(const Camera& camera) {
+  return {.eye = Vec3(camera.eye),
+          .target = Vec3(camera.target),
+          .up = Vec3(camera.up),
+          .fov_degrees = static_cast<float>(camera.fov_degrees),
+          .width = camera.width,
+          .height = camera.height};
+}
+
+uint64_t count_film_bytes(const FilmTable& film) {
+  return film.pixel_first.size() * sizeof(uint64_t) + film.value.size() * sizeof(uint32_t) +
+         film.weight.size() * sizeof(float) + film.line_cover.size() * sizeof(float);
+}
+
+bool is_smooth(const Run& run) { return run.scene.output.shading == Shading::kSmooth; }
+
+bool wants(const Run& run, PixelKind pixels) {
+  for (const Exporter* exporter : run.plan.exporters)
+    if (exporter->pixels == pixels) return true;
+  return false;
+}
+
+void make_films(Run& run, const Tracer& tracer) {
+  Stopwatch watch;
+  for (const Camera& camera : run.plan.cameras) {
+    const FilmSettings settings{
+        .smooth = is_smooth(run), .mesh_lines = run.plan.mesh, .seed = run.scene.solver.seed};
+    run.films.push_back(make_film(run.solution, run.scene.faces, tracer, make_view(camera), settings));
+    run.report.film_rays += run.films.back().ray_count;
+    run.report.film_bytes += count_film_bytes(run.films.back());
+  }
+  run.report.seconds.render += watch.lap();
+}
+
+// The mean over each element's corners of what is known at vertices.
+std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& faces,
+                                 std::span<const Rgb> vertex_values) {
+  std::vector<Rgb> values(solution.elements.size());
+  for (size_t row = 0; row < values.size(); ++row) {
+    const int corner_count = faces.corner_count[solution.elements.face[row]];
+    for (int k = 0; k < corner_count; ++k)
+      values[row] += vertex_values[solution.element_vertices.leaf_vertex[row][k]];
+    values[row] /= static_cast<float>(corner_count);
+  }
+  return values;
+}
+
+// One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass, so that a
+// finished picture stays right whatever comes later.
+void fix_exposure(Run& run) {
+  Stopwatch watch;
+  if (!run.scene.output.exposure_ev) {
+    std::vector<Rgb> values = vertex_radiosity_forecast(run.solution, run.scene.faces);
+    if (!is_smooth(run)) values = average_corners(run.solution, run.scene.faces, values);
+    std::vector<float> luminances;
+    for (const FilmTable& film : run.films)
+      collect_luminances(luminances, film, values, run.solution, run.scene.faces, is_smooth(run));
+    run.scene.output.exposure_ev = pick_exposure_ev(luminances);
+  }
+  run.report.exposure_ev = run.scene.output.exposure_ev;
+  run.report.seconds.render += watch.lap();
+}
+
+Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb> values, PixelKind pixels) {
+  Picture picture{film.width, film.height, expose(film, values)};
+  if (pixels == PixelKind::kDisplay && run.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
+  return picture;
+}
+
+// Sends the pictures of the current state to the files of all `passes`.
+void write_snapshots(Run& run, std::span<const uint32_t> passes) {
+  if (passes.empty() || !run.plan.has_pictures()) return;
+  Stopwatch watch;
+  const std::vector<Rgb> radiosity =
+      is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
+  std::vector<Rgb> shown;
+  if (wants(run, PixelKind::kDisplay)) shown = expose_values(radiosity, *run.scene.output.exposure_ev);
+  for (size_t k = 0; k < run.films.size(); ++k)
+    for (const Exporter* exporter : run.plan.exporters) {
+      if (exporter->pixels == PixelKind::kNoPixels) continue;
+      const bool display = exporter->pixels == PixelKind::kDisplay;
+      auto picture = std::make_shared<Picture>(
+          take_picture(run, run.films[k], display ? shown : radiosity, exporter->pixels));
+      std::vector<std::string> paths;
+      for (const uint32_t pass : passes)
+        paths.push_back(run.folder + "/" +
+                        make_picture_name(run.plan, run.scene, run.plan.cameras[k], pass, *exporter));
+      run.report.seconds.render += watch.lap();
+      push_job(run.jobs, [picture, paths, encode = exporter->encode_picture] {
+        const std::string bytes = encode(*picture);
+        for (const std::string& path : paths) write_file(path, bytes);
+      });
+      run.pictures.insert(run.pictures.end(), paths.begin(), paths.end());
+      run.report.seconds.write += watch.lap();
+    }
+}
+
+void write_tables(Run& run) {
+  Stopwatch watch;
+  for (const Exporter* exporter : run.plan.exporters) {
+    if (exporter->pixels != PixelKind::kNoPixels) continue;
+    NewFile file;
+    open_file(file, fmt::format("{}/{}-patches.{}", run.folder, run.plan.stem, exporter->format));
+    exporter->export_solution(file, run.scene, run.solution);
+    commit_file(file);
+    run.tables.push_back(file.path);
+  }
+  run.report.seconds.write += watch.lap();
+}
+
+void refine_all(Run& run, const Tracer& tracer) {
+  const auto tell = [&] {
+    say_progress(run.talk, fmt::format("refining: {} patches", format_count(run.solution.elements.size())));
+  };
+  run.solution = make_solution(run.scene.faces, tracer, run.scene.solver);
+  tell();
+  while (refine(run.solution, run.scene.faces, tracer, run.scene.solver)) tell();
+}
+
+void advance_all(Run& run, const Tracer& tracer) {
+  const SolverSettings& settings = run.scene.solver;
+  std::span<const uint32_t> snapshots = run.plan.snapshots;
+  bool last = false;
+  while (!last) {
+    const PassReport& pass = advance(run.solution, run.scene.faces, tracer, settings);
+    const bool converged = is_converged(run.solution, settings);
+    // The first pass freezes the mesh: from here on films can be made.
+    if (pass.pass == 1 && run.plan.has_pictures()) make_films(run, tracer);
+    if (pass.pass == 1 && wants(run, PixelKind::kDisplay)) fix_exposure(run);
+    last = converged || pass.pass == settings.pass_count_max;
+    if (last) run.report.stopped_reason = converged ? "converged" : "passes";
+    say_progress(run.talk, fmt::format("pass {} of {}", pass.pass, settings.pass_count_max));
+    // A run that ends early writes all that was asked for.
+    size_t due = 0;
+    while (due < snapshots.size() && (last || snapshots[due] == pass.pass)) ++due;
+    write_snapshots(run, snapshots.first(due));
+    snapshots = snapshots.subspan(due);
+  }
+}
+
+// Everything that may be cancelled.
+void solve(Run& run, const Tracer& tracer) {
+  refine_all(run, tracer);
+  advance_all(run, tracer);
+  write_tables(run);
+  run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
+  run.report.row_sums = find_row_sums(run.solution, run.scene.faces, run.scene.polygons.size());
+  run.report.solution_hash = find_solution_hash(run.solution);
+}
+
+void write_report(Run& run, const std::string& path, Stopwatch& whole) {
+  StageSeconds& seconds = run.report.seconds;
+  seconds.trace = run.solution.seconds.trace;
+  seconds.split = run.solution.seconds.split;
+  seconds.solve = run.solution.seconds.solve;
+  seconds.total = whole.lap();
+  write_file(path, format_report(run.report, run.scene, run.solution));
+  run.tables.insert(run.tables.begin(), path);
+}
+
+void say_summary(Run& run) {
+  const RunReport& report = run.report;
+  const size_t pass_count = run.solution.passes.size();
+  std::string why = report.stopped_reason;
+  if (why == "passes") why = "all that were asked for";
+  if (why == "signal") why = "stopped by " + report.stopped_signal;
+  say(run.talk,
+      fmt::format("{}: {} of {} passes ({}), {} patches, {} rays{}", run.plan.stem, pass_count,
+                  run.scene.solver.pass_count_max, why, run.solution.elements.size(),
+                  format_count(count_rays(report, run.solution)),
+                  report.power ? fmt::format(", closure error {:.2g}", report.power->closure_error) : ""));
+  const StageSeconds& s = report.seconds;
+  say(run.talk, fmt::format("seconds: load {:.2f}, trace {:.2f}, split {:.2f}, solve {:.2f}, render {:.2f}, "
+                            "write {:.2f}, total {:.2f}",
+                            s.load, s.trace, s.split, s.solve, s.render, s.write, s.total));
+  if (report.exposure_ev)
+    say(run.talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", *report.exposure_ev));
+  say(run.talk, fmt::format("files: {} in {}", run.tables.size() + run.pictures.size(), run.folder));
+}
+
+void warn_not_converged(Run& run) {
+  const std::vector<PassReport>& passes = run.solution.passes;
+  const double until = run.scene.solver.until;
+  if (run.report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
+  say_warning(
+      run.talk, "not-converged",
+      fmt::format("after {} passes the last one still added {:.2g} of what pass 1 added; until is {:g}; "
+                  "more passes would change the picture",
+                  passes.size(), passes.back().added_largest / passes.front().added_largest, until),
+      run.scene.file);
+}
+
+}  // namespace
+
+int render(const Options& options, Talk& talk) {
+  Stopwatch whole, watch;
+  if (!options.json) check_standard_output();
+  std::vector<Diagnostic> warnings;
+  Run run{.talk = talk};
+  run.scene = load_scene(options.scene, warnings);
+  say_diagnostics(talk, warnings);
+  run.plan = make_plan(run.scene, options);
+  check_limits(run.scene, run.plan);
+  run.report.forecast_bytes = forecast_run_bytes(run.scene, run.plan);
+  const StopSignals signals;  // From here on there may be files to clean up.
+  const OutputFolder folder = open_output_folder(options.out);
+  run.folder = folder.path;
+  const std::string report_path =
+      options.report.empty() ? fmt::format("{}/{}-report.json", run.folder, run.plan.stem) : options.report;
+  check_file_writable(report_path);
+
+  run.report.thread_count = start_threads(options, talk);
+  const Tracer tracer = make_tracer(run.scene.faces);
+  run.report.seconds.load = watch.lap();
+  try {
+    solve(run, tracer);
+  } catch (const Cancelled&) {
+    run.report.stopped_reason = "signal";
+    run.report.stopped_signal = stop_signal() == SIGTERM ? "SIGTERM" : "SIGINT";
+  }
+  watch.lap();
+  finish_jobs(run.jobs);
+  run.report.seconds.write += watch.lap();
+  write_report(run, report_path, whole);
+
+  warn_not_converged(run);
+  say_summary(run);
+  if (!options.json) {
+    std::string paths;
+    for (const std::string& path : run.tables) paths += path + "\n";
+    for (const std::string& path : run.pictures) paths += path + "\n";
+    print_result(paths);
+  }
+  return run.report.stopped_reason == "signal" ? 128 + stop_signal() : 0;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,12 @@
+// The verb render: a scene -> pictures after the asked passes, tables, and a report.
+#pragma once
+
+#include "options.h"
+#include "talk.h"
+
+namespace patchlight {
+
+// Returns the exit code: 0, or 128 + the signal that stopped the run. Throws UserError.
+int render(const Options& options, Talk& talk);
+
+}  // namespace patchlight

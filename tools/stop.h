@@ -1,0 +1,21 @@
+// SIGINT and SIGTERM -> a run that stops between two rows of work and keeps what is finished.
+#pragma once
+
+#include <signal.h>
+
+namespace patchlight {
+
+// While it lives, the first signal asks the engine to cancel, and the second ends the process at once,
+// without leaving temporary files. Restores the handlers of before. One at a time.
+struct StopSignals {
+  struct sigaction before_int, before_term;
+  StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+  ~StopSignals();
+};
+
+// SIGINT or SIGTERM once it came, else 0.
+int stop_signal() noexcept;
+
+}  // namespace patchlight
