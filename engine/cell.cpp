@@ -46,7 +46,7 @@ uint32_t find_triangle_cell(Vec2 uv) {
 CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level) {
   if (!triangle) {
     return {{static_cast<float>(gather_bits(cell)) * 0x1p-16f, static_cast<float>(gather_bits(cell >> 1)) * 0x1p-16f},
-            std::ldexp(1.0f, -static_cast<int>(level))};
+            cell_size(level)};
   }
   CellFrame frame{{0, 0}, 1};
   for (uint32_t k = 1; k <= level; ++k) {
@@ -129,7 +129,7 @@ std::array<Vec3, 4> cell_corners(const FaceFrameTable& frames, uint32_t face, ui
 float cell_area(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint32_t level) {
   if (frames.affine[face]) {
     const double root = length(cross(DVec3(frames.edge_u[face]), DVec3(frames.edge_v[face])));
-    return static_cast<float>(std::ldexp(frames.triangle[face] ? root / 2 : root, -2 * static_cast<int>(level)));
+    return static_cast<float>((frames.triangle[face] ? root / 2 : root) * cell_size(level) * cell_size(level));
   }
   const auto c = cell_corners(frames, face, cell, level);
   return static_cast<float>(0.5 * length(cross(DVec3(c[2]) - DVec3(c[0]), DVec3(c[3]) - DVec3(c[1]))));

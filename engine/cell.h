@@ -14,9 +14,14 @@
 
 #include "tables.h"
 
+#include <bit>
+
 namespace patchlight {
 
 constexpr uint32_t kLevelMax = 16;
+
+// 2^-level: the size of a cell in the parameters of its face.
+inline float cell_size(uint32_t level) { return std::bit_cast<float>((127 - level) << 23); }
 
 // Codes of level kLevelMax below a cell of this level; the root has 2^32 of them.
 inline uint64_t cell_span(uint32_t level) { return uint64_t{1} << (32 - 2 * level); }

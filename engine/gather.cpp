@@ -32,10 +32,12 @@ uint32_t find_element(const Elements& elements, uint32_t patch, uint32_t cell) {
   return low;
 }
 
-// Area per unit square of a cell's own parameters, at (u, v) of the face.
-float area_density(const FaceFrameTable& frames, uint32_t face, uint32_t level, Vec2 uv) {
+// Area of the source for each unit of its own parameters, at (u, v) of its face.
+float area_density(const SourceTable& sources, const FaceFrameTable& frames, uint32_t source, Vec2 uv) {
+  const uint32_t face = sources.face[source], level = sources.level[source];
+  if (frames.affine[face]) return sources.area[source];
   const Vec3 u = frames.edge_u[face] + uv.y * frames.twist[face], v = frames.edge_v[face] + uv.x * frames.twist[face];
-  return std::ldexp(length(cross(u, v)) * (frames.triangle[face] ? 0.5f : 1.0f), -2 * static_cast<int>(level));
+  return length(cross(u, v)) * cell_size(level) * cell_size(level);
 }
 
 // How a patch shares its aimed rays among the sources: by an estimate of what each sends it.
@@ -65,7 +67,8 @@ void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3
   shares.cumulative.back() = 1;
 }
 
-// Power heuristic: the weight of a sample drawn with `own` against the other way to draw it.
+// Power heuristic: the weight of a sample drawn with density `own` against the other way to draw it. Both ways take the
+// densities from the patch's centre, whatever point of it a ray starts from: weights need only sum to one.
 float heuristic(float own, float other) { return own * own / (own * own + other * other); }
 
 // A sequence that fills four dimensions evenly (Roberts: The Unreasonable Effectiveness of Quasirandom Sequences, 2018):
@@ -84,7 +87,7 @@ AimedSample make_aimed_sample(uint64_t key, uint32_t index) {
 
 struct PatchPlace {
   uint32_t row, face, cell, level;
-  Vec3 normal;
+  Vec3 centre, normal;
   uint32_t rays;  // of its row, and as many aimed
   float share_valid;
 };
@@ -123,8 +126,9 @@ Rgb gather_aimed(const PatchPlace& place, const AimShares& shares, const SourceT
       origin += ray_offset(origin) * place.normal;
       Vec3 target = face_point(frames, face, uv);
       const float kernel = form_factor_kernel(target - origin, place.normal, sources.normal[source]);
-      const float density = shares.share[source] / area_density(frames, face, sources.level[source], uv);
-      value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, kernel) : 0;
+      const float density = shares.share[source] / area_density(sources, frames, source, uv);
+      const float row_density = form_factor_kernel(target - place.centre, place.normal, sources.normal[source]);
+      value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
       if (value[k] > 0) active |= 1u << k;
       // The element under the target: a search in the node's rows.
       const uint32_t code = find_cell(source_triangle, uv);
@@ -153,34 +157,23 @@ Rgb gather_aimed(const PatchPlace& place, const AimShares& shares, const SourceT
 // The part of the row's own rays; hits on sources weigh as much as the aimed rays leave them.
 Rgb gather_row(const PatchPlace& place, const AimShares& shares, const SourceTable& sources, const HitTable& hits,
                const PatchTable& patches, const Elements& elements, std::span<const uint32_t> element_source,
-               std::span<const Rgb> sent, const FaceFrameTable& frames, RowGrid grid, uint64_t seed) {
-  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowHits);
-  const Frame frame = make_frame(place.normal);
-  HitPacket packet;
+               std::span<const Rgb> sent, const FaceFrameTable& frames) {
   Rgb sum(0);
-  for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-    bool made = false;
-    for (uint32_t k = 0; k < kPacketSize; ++k) {
-      const size_t entry = place.row * size_t{hits.ray_count} + tile * kPacketSize + k;
-      const uint32_t patch = hits.patch[entry];
-      if (patch >= kHitBuried) continue;
-      const uint32_t element = find_element(elements, patch, hits.cell[entry]);
-      const uint32_t source = shares.any ? element_source[element] : kNone;
-      float weight = 1;
-      if (source != kNone && shares.share[source] > 0) {
-        // The same rays again, not cast: only where they started is wanted.
-        if (!made) make_row_packet(packet, frames, frame, place.face, place.cell, place.level, key, grid, tile);
-        made = true;
-        const uint32_t face = patches.face[patch];
-        const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[entry], kLevelMax);
-        const Vec2 uv = end.origin + end.size * 0.5f;
-        const Vec3 origin(packet.ray.origin_x[k], packet.ray.origin_y[k], packet.ray.origin_z[k]);
-        const float kernel =
-            form_factor_kernel(face_point(frames, face, uv) - origin, place.normal, sources.normal[source]);
-        weight = heuristic(kernel, shares.share[source] / area_density(frames, face, sources.level[source], uv));
-      }
-      sum += weight * sent[element];
+  for (size_t entry = place.row * size_t{hits.ray_count}; entry < (place.row + 1) * size_t{hits.ray_count}; ++entry) {
+    const uint32_t patch = hits.patch[entry];
+    if (patch >= kHitBuried) continue;
+    const uint32_t element = find_element(elements, patch, hits.cell[entry]);
+    const uint32_t source = shares.any ? element_source[element] : kNone;
+    float weight = 1;
+    if (source != kNone && shares.share[source] > 0) {
+      const uint32_t face = patches.face[patch];
+      const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[entry], kLevelMax);
+      const Vec2 uv = end.origin + end.size * 0.5f;
+      const float kernel =
+          form_factor_kernel(face_point(frames, face, uv) - place.centre, place.normal, sources.normal[source]);
+      weight = heuristic(kernel, shares.share[source] / area_density(sources, frames, source, uv));
     }
+    sum += weight * sent[element];
   }
   return sum / (place.share_valid * static_cast<float>(hits.ray_count));
 }
@@ -207,23 +200,29 @@ void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const AimT
 
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const HitTable& hits,
                     std::span<const Rgb> sent) {
+  // Four floats a patch load in one go; the last row stands for rays that met no patch.
+  struct alignas(16) Wide {
+    float channel[4];
+  };
+  std::vector<Wide> source(sent.size() + 1, Wide{});
+  for (size_t p = 0; p < sent.size(); ++p) source[p] = {{sent[p].r, sent[p].g, sent[p].b, 0}};
+  const auto no_patch = static_cast<uint32_t>(sent.size());
   for_rows(irradiance.size(), 64, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
-      Rgb sum[2] = {Rgb(0), Rgb(0)};
-      uint32_t valid[2] = {0, 0};
-      for (uint32_t k = 0; k < hits.ray_count; ++k) {
-        const uint32_t patch = hits.patch[row * hits.ray_count + k];
-        if (patch == kHitBuried) continue;
-        const uint32_t half = (k ^ k >> 2) & 1;  // a chequerboard over the strata of a packet
-        ++valid[half];
-        if (patch < kHitBuried) sum[half] += sent[patch];
-      }
-      const uint32_t all = valid[0] + valid[1];
-      irradiance[row] = all ? (sum[0] + sum[1]) / static_cast<float>(all) : Rgb(0);
-      if (!difference.empty())
-        difference[row] = valid[0] && valid[1] ? 0.5f * abs(sum[0] / static_cast<float>(valid[0]) -
-                                                            sum[1] / static_cast<float>(valid[1]))
-                                               : Rgb(0);
+      const uint32_t* hit = hits.patch.data() + row * hits.ray_count;
+      // Rays in two halves, a chequerboard over the strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the other.
+      Wide sum[2] = {};
+      for (uint32_t k = 0; k < hits.ray_count; k += 8)
+        for (const auto& [even, odd] : {std::pair{0u, 1u}, {2u, 3u}, {5u, 4u}, {7u, 6u}}) {
+          const Wide& a = source[std::min(hit[k + even], no_patch)];
+          const Wide& b = source[std::min(hit[k + odd], no_patch)];
+          for (int c = 0; c < 4; ++c) sum[0].channel[c] += a.channel[c], sum[1].channel[c] += b.channel[c];
+        }
+      const auto valid = static_cast<float>(valid_count(hits, row));
+      const Rgb halves[2] = {{sum[0].channel[0], sum[0].channel[1], sum[0].channel[2]},
+                             {sum[1].channel[0], sum[1].channel[1], sum[1].channel[2]}};
+      irradiance[row] = valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0);
+      if (!difference.empty()) difference[row] = valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0);
     }
   });
 }
@@ -300,8 +299,7 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const 
   std::vector<uint32_t> element_source(elements.table.size(), kNone);
   for (uint32_t s = 0; s < sources.size(); ++s)
     std::fill(element_source.begin() + sources.element_first[s], element_source.begin() + sources.element_last[s], s);
-  const RowGrid grid = make_row_grid(hits.ray_count);
-  assert(grid.ray_count() == hits.ray_count);
+  assert(hits.ray_count % kPacketSize == 0);
   std::atomic<uint64_t> ray_count{0};
   for_rows(patches.size(), 32, [&](size_t begin, size_t end) {
     AimShares shares;
@@ -312,10 +310,10 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const 
       if (share_valid == 0) continue;
       const uint32_t face = patches.face[row];
       const PatchPlace place{static_cast<uint32_t>(row), face, patches.cell[row], patches.level[row],
-                             faces.normal[face], hits.ray_count, share_valid};
-      find_shares(shares, sources, cell_centre(frames, face, place.cell, place.level), place.normal);
-      irradiance[row] = gather_row(place, shares, sources, hits, patches, elements, element_source, sent, frames, grid,
-                                   seed);
+                             cell_centre(frames, face, patches.cell[row], patches.level[row]), faces.normal[face],
+                             hits.ray_count, share_valid};
+      find_shares(shares, sources, place.centre, place.normal);
+      irradiance[row] = gather_row(place, shares, sources, hits, patches, elements, element_source, sent, frames);
       if (shares.any)
         irradiance[row] += gather_aimed(place, shares, sources, elements, sent, faces, frames, tracer, seed, cast);
     }

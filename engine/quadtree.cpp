@@ -22,14 +22,14 @@ struct GridCell {
 
 GridCell find_grid_cell(bool triangle, uint32_t face, uint32_t cell, uint32_t level) {
   const auto [origin, size] = make_cell_frame(triangle, cell, level);
-  const float n = std::ldexp(1.0f, static_cast<int>(level));
+  const auto n = static_cast<float>(1u << level);
   GridCell place{face, static_cast<int32_t>(origin.x * n), static_cast<int32_t>(origin.y * n), size < 0};
   if (place.turned) --place.i, --place.j;
   return place;
 }
 
 uint32_t find_grid_code(bool triangle, const GridCell& place, uint32_t level) {
-  const float h = std::ldexp(1.0f, -static_cast<int>(level));
+  const float h = cell_size(level);
   const float inside = triangle ? (place.turned ? 2 / 3.0f : 1 / 3.0f) : 0.5f;
   const Vec2 centre((static_cast<float>(place.i) + inside) * h, (static_cast<float>(place.j) + inside) * h);
   return cell_ancestor(find_cell(triangle, centre), level);

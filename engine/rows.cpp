@@ -69,24 +69,37 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
   const uint32_t shift_u = static_cast<uint32_t>(row_key) % grid.rows;
   const uint32_t shift_v = static_cast<uint32_t>(row_key >> 32) % grid.columns;
   const float scale_x = 1 / static_cast<float>(grid.columns), scale_y = 1 / static_cast<float>(grid.rows);
+  // Loops over lanes stand alone, so that they compile to wide instructions: hashing, directions, origins.
+  float direction_x[kPacketSize], direction_y[kPacketSize], origin_s[kPacketSize], origin_t[kPacketSize];
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const uint32_t a = column + k % 4, b = row + k / 4;
-    const uint32_t index = b * grid.columns + a;
+    const uint32_t a = column + k % 4, b = row + k / 4, index = b * grid.columns + a;
     const Vec2 d = make_jitter(row_key, 2 * index), o = make_jitter(row_key, 2 * index + 1);
-    const Vec3 local = make_local_direction((static_cast<float>(a) + d.x) * scale_x,
-                                            (static_cast<float>(b) + d.y) * scale_y);
+    direction_x[k] = (static_cast<float>(a) + d.x) * scale_x;
+    direction_y[k] = (static_cast<float>(b) + d.y) * scale_y;
     // Every packet's sixteen origins are spread over the whole patch, and every stratum of the patch is used once.
     const uint32_t c = (b * grid.row_step + shift_u) % grid.rows;
     const uint32_t e = (a * grid.column_step + shift_v) % grid.columns;
     const Vec2 uv = cell_sample(triangle, place, {(static_cast<float>(c) + o.x) * scale_y,
                                                   (static_cast<float>(e) + o.y) * scale_x});
-    Vec3 point = face_point(frames, face, uv);
-    point += ray_offset(point) * frame.normal;
-    const Vec3 direction = local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal;
-    rays.ray.origin_x[k] = point.x, rays.ray.origin_y[k] = point.y, rays.ray.origin_z[k] = point.z;
-    rays.ray.direction_x[k] = direction.x, rays.ray.direction_y[k] = direction.y;
-    rays.ray.direction_z[k] = direction.z;
-    rays.ray.near_distance[k] = 0, rays.ray.far_distance[k] = std::numeric_limits<float>::infinity();
+    origin_s[k] = uv.x, origin_t[k] = uv.y;
+  }
+  const Vec3 corner = frames.origin[face], u = frames.edge_u[face], v = frames.edge_v[face], twist = frames.twist[face];
+  const Vec3 tangent = frame.tangent, bitangent = frame.bitangent, normal = frame.normal;
+  RayPacket& ray = rays.ray;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec3 local = make_local_direction(direction_x[k], direction_y[k]);
+    ray.direction_x[k] = local.x * tangent.x + local.y * bitangent.x + local.z * normal.x;
+    ray.direction_y[k] = local.x * tangent.y + local.y * bitangent.y + local.z * normal.y;
+    ray.direction_z[k] = local.x * tangent.z + local.y * bitangent.z + local.z * normal.z;
+    ray.near_distance[k] = 0, ray.far_distance[k] = std::numeric_limits<float>::infinity();
+  }
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float s = origin_s[k], t = origin_t[k], st = s * t;
+    const Vec3 p(corner.x + s * u.x + t * v.x + st * twist.x, corner.y + s * u.y + t * v.y + st * twist.y,
+                 corner.z + s * u.z + t * v.z + st * twist.z);
+    const float offset = ray_offset(p);
+    ray.origin_x[k] = p.x + offset * normal.x, ray.origin_y[k] = p.y + offset * normal.y;
+    ray.origin_z[k] = p.z + offset * normal.z;
   }
 }
 

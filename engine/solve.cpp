@@ -26,7 +26,9 @@ constexpr float kPatchSize = 1 / 30.0f;
 // Of the starting patch size.
 constexpr float kPatchSizeMin = 1 / 32.0f;
 constexpr uint32_t kSourceCount = 400;
-constexpr uint32_t kCoarsePasses = 24;
+// The coarse solution ends when a pass adds less than this share of what it has.
+constexpr double kCoarseUntil = 0.005;
+constexpr uint32_t kCoarsePassesMax = 64;
 // Direct light has edges: follow them. Indirect light is smooth and carries the noise of its rows: mean it.
 constexpr ReconstructSettings kDirectSurface{.sharpen_steps = 3, .border_steps = 3};
 constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 0, .border_steps = 2};
@@ -152,18 +154,21 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable
 void find_coarse(Solution& s, const FaceTable& faces) {
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
-  std::vector<Rgb> received(count), sent(count), difference(count), next(count);
-  gather_emission(received, s.hits, s.aims, s.patches, faces);
-  s.coarse = received;
-  std::vector<Rgb> error(count, Rgb(0));
-  for (size_t p = 0; p < count; ++p) sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + received[p]);
-  for (uint32_t pass = 2; pass <= kCoarsePasses; ++pass) {
+  std::vector<Rgb> sent(count), error(count, Rgb(0)), difference(count), next(count);
+  gather_emission(next, s.hits, s.aims, s.patches, faces);
+  s.coarse = next;
+  for (size_t p = 0; p < count; ++p) sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + next[p]);
+  for (uint32_t pass = 2; pass <= kCoarsePassesMax; ++pass) {
     gather_patches(next, difference, s.hits, sent);
+    double added = 0, all = 0;
     for (size_t p = 0; p < count; ++p) {
       s.coarse[p] += next[p];
       error[p] += difference[p];
       sent[p] = faces.reflectance[s.patches.face[p]] * next[p];
+      added += double{s.patches.area[p]} * largest(next[p]);
+      all += double{s.patches.area[p]} * largest(direct[p] + s.coarse[p]);
     }
+    if (added <= kCoarseUntil * all) break;
   }
   s.coarse_error.resize(count);
   for (size_t p = 0; p < count; ++p) s.coarse_error[p] = largest(error[p]);
@@ -194,7 +199,7 @@ std::vector<float> find_errors(const Solution& s, const FaceTable& faces) {
   for_rows(error.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       const uint32_t patch = s.element_patch[row];
-      const float slope = std::ldexp(s.coarse_error[patch], s.patches.level[patch] - s.elements.level[row]);
+      const float slope = s.coarse_error[patch] * cell_size(s.elements.level[row] - s.patches.level[patch]);
       error[row] = largest(faces.reflectance[s.elements.face[row]]) * std::hypot(s.direct_error[row], slope);
     }
   });
