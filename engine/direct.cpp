@@ -257,7 +257,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
       const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];
       uint64_t seen = settled_seen, hidden = settled & out.views.hidden[row];
       Rgb irradiance(0);
-      float variance = 0;
+      double variance = 0;  // emissions may be as large as 1e20
       uint32_t usable = 0xffff;
       if (elements.exposed[row] > 0) {
         make_points(first_points, frames, elements, row, key, 0);
@@ -295,11 +295,11 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
         if (sums.reached == 0) hidden |= bit;
         irradiance += factor * visible * emission;
         // Stratification makes N pairs worth about 3 N random ones (measured on half screens).
-        const float strength = factor * luminance(emission);
-        variance += strength * strength * visible * (1 - visible) / (3 * static_cast<float>(std::max(sums.rays, 1u)));
+        const double strength = factor * luminance(emission);
+        variance += strength * strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
       }
       out.irradiance[row] = irradiance;
-      out.error[row] = std::sqrt(variance);
+      out.error[row] = static_cast<float>(std::sqrt(variance));
       out.views.seen[row] = seen;
       out.views.hidden[row] = hidden;
     }

@@ -57,7 +57,7 @@ void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3
     const float cosines = std::max(dot(way, normal), 0.0f) * std::max(-dot(way, sources.normal[s]), 0.0f);
     // A source that is near is wide in the sky: its strength is bounded by its own size.
     const float bounded = std::max(squared, sources.area[s]);
-    shares.share[s] = sources.flux[s] * cosines / (bounded * bounded);
+    shares.share[s] = sources.share[s] * cosines / (bounded * bounded);
   }
   float sum = 0;
   for (size_t s = 0; s < count; ++s) shares.cumulative[s] = sum += shares.share[s];
@@ -288,7 +288,7 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
     sources.centre.push_back(cell_centre(frames, node.face, node.cell, node.level));
     sources.normal.push_back(faces.normal[node.face]);
     sources.area.push_back(node_area);
-    sources.flux.push_back(static_cast<float>(node.flux));
+    sources.share.push_back(static_cast<float>(node.flux / flux_before.back()));
   }
   return sources;
 }

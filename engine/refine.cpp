@@ -19,7 +19,7 @@ constexpr float kNoiseMargin = 3;       // standard errors that a difference mus
 float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float threshold) {
   const Rgb va = input.elements.radiosity[a], vb = input.elements.radiosity[b];
   const float difference = largest(abs(va - vb)), larger = std::max(largest(va), largest(vb));
-  const float noise = std::sqrt(input.error[a] * input.error[a] + input.error[b] * input.error[b]);
+  const float noise = std::hypot(input.error[a], input.error[b]);
   const float allowed = std::max(threshold * larger, kFloorOfMean * input.mean_radiosity) + kNoiseMargin * noise;
   return difference > allowed ? difference : 0;
 }

@@ -53,14 +53,6 @@ float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames) {
   return static_cast<float>(std::sqrt(area));
 }
 
-struct PatchSizes {
-  float start, least;
-};
-PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames, const SolverSettings& settings) {
-  const float start = settings.patch_size > 0 ? settings.patch_size : kPatchSize * find_scene_scale(faces, frames);
-  return {start, settings.patch_size_min > 0 ? settings.patch_size_min : kPatchSizeMin * start};
-}
-
 // How often a face is halved before the first round.
 uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face, float patch_size) {
   const float wanted = faces.patch_size[face] > 0 ? faces.patch_size[face] : patch_size;
@@ -69,6 +61,26 @@ uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, 
   float edge = std::ldexp(longest_edge(cell_corners(frames, face, 0, 0)), -static_cast<int>(level));
   while (edge > wanted * 1.0001f && level < kLevelMax) edge /= 2, ++level;
   return std::min(level, kLevelMax - 1);
+}
+
+uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& frames, float patch_size) {
+  uint64_t count = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
+  return count;
+}
+
+struct PatchSizes {
+  float start, least;
+};
+PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames, const SolverSettings& settings) {
+  float start = settings.patch_size;
+  if (start <= 0) {
+    // An automatic size leaves half of the budget to the rounds.
+    const float scale = find_scene_scale(faces, frames);
+    start = kPatchSize * scale;
+    while (start < scale && count_leaves_at_start(faces, frames, start) > settings.patch_count_max / 2) start *= 1.25f;
+  }
+  return {start, settings.patch_size_min > 0 ? settings.patch_size_min : kPatchSizeMin * start};
 }
 
 // Elements: the patches, split on until they are as small as the settings want them to start.
@@ -400,10 +412,7 @@ uint64_t find_solution_hash(const Solution& s) {
 
 uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings) {
   const FaceFrameTable frames = make_face_frames(faces);
-  const float patch_size = find_patch_sizes(faces, frames, settings).start;
-  uint64_t count = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
-  return count;
+  return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings).start);
 }
 
 uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) {

@@ -114,7 +114,7 @@ struct SourceTable {
   std::vector<uint8_t> level;
   std::vector<Vec3> centre, normal;
   std::vector<float> area;  // lengths squared
-  std::vector<float> flux;  // W in lengths squared: the unshot power under the node, luminance
+  std::vector<float> share;  // of all the unshot power (luminance)
   size_t size() const { return face.size(); }
 };
 
