@@ -45,17 +45,25 @@ uint32_t find_triangle_cell(Vec2 uv) {
 
 CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level) {
   if (!triangle) {
-    return {{static_cast<float>(gather_bits(cell)) * 0x1p-16f, static_cast<float>(gather_bits(cell >> 1)) * 0x1p-16f},
+    return {{static_cast<float>(gather_bits(cell)) * 0x1p-16f,
+             static_cast<float>(gather_bits(cell >> 1)) * 0x1p-16f},
             cell_size(level)};
   }
   CellFrame frame{{0, 0}, 1};
   for (uint32_t k = 1; k <= level; ++k) {
     frame.size *= 0.5f;
     switch (cell_child(cell, k)) {
-      case 1: frame.origin.x += frame.size; break;
-      case 2: frame.origin.y += frame.size; break;
-      case 3: frame.origin += Vec2(frame.size), frame.size = -frame.size; break;
-      default: break;
+      case 1:
+        frame.origin.x += frame.size;
+        break;
+      case 2:
+        frame.origin.y += frame.size;
+        break;
+      case 3:
+        frame.origin += Vec2(frame.size), frame.size = -frame.size;
+        break;
+      default:
+        break;
     }
   }
   return frame;
@@ -95,8 +103,9 @@ Vec2 find_face_parameters(const FaceFrameTable& frames, uint32_t face, Vec3 poin
   const Vec3 p = point - frames.origin[face];
   const Vec2 target(dot(p, frames.dual_u[face]), dot(p, frames.dual_v[face]));
   if (frames.affine[face]) return target;
-  // In the basis (edge_u, edge_v) the bilinear map is (u, v) + u v twist: Newton's method, from the parameters without
-  // twist. Convex quads have one root in the unit square and a Jacobian that does not change sign there.
+  // In the basis (edge_u, edge_v) the bilinear map is (u, v) + u v twist: Newton's method, from the
+  // parameters without twist. Convex quads have one root in the unit square and a Jacobian that does not
+  // change sign there.
   const Vec3 twist3 = frames.twist[face];
   const Vec2 twist(dot(twist3, frames.dual_u[face]), dot(twist3, frames.dual_v[face]));
   Vec2 uv = {std::clamp(target.x, 0.0f, 1.0f), std::clamp(target.y, 0.0f, 1.0f)};
@@ -129,7 +138,8 @@ std::array<Vec3, 4> cell_corners(const FaceFrameTable& frames, uint32_t face, ui
 float cell_area(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint32_t level) {
   if (frames.affine[face]) {
     const double root = length(cross(DVec3(frames.edge_u[face]), DVec3(frames.edge_v[face])));
-    return static_cast<float>((frames.triangle[face] ? root / 2 : root) * cell_size(level) * cell_size(level));
+    return static_cast<float>((frames.triangle[face] ? root / 2 : root) * cell_size(level) *
+                              cell_size(level));
   }
   const auto c = cell_corners(frames, face, cell, level);
   return static_cast<float>(0.5 * length(cross(DVec3(c[2]) - DVec3(c[0]), DVec3(c[3]) - DVec3(c[1]))));

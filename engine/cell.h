@@ -1,15 +1,15 @@
 // Cells of a quadtree on a face, and points of a face.
 //
-// A quad's point is the bilinear p(u, v) of its corners (0,0) (1,0) (1,1) (0,1); a triangle's is the linear one of
-// (0,0) (1,0) (0,1). A cell halves both parameters; a triangle's four children are its corners 0, 1, 2 and, turned by
-// half a turn, its middle:
+// A quad's point is the bilinear p(u, v) of its corners (0,0) (1,0) (1,1) (0,1); a triangle's is the linear
+// one of (0,0) (1,0) (0,1). A cell halves both parameters; a triangle's four children are its corners 0, 1, 2
+// and, turned by half a turn, its middle:
 //
 //      2 --- 3       v      quads:      2 | 3     triangles:     2
 //      |     |       ^                  --+--                   /3\    .
 //      0 --- 1       +-> u              0 | 1                  0---1
 //
-// The path from the root is kept as two bits a level, left-aligned in 32 bits, so that the cells of a face sort by
-// place and a cell owns the codes [cell, cell + cell_span(level)).
+// The path from the root is kept as two bits a level, left-aligned in 32 bits, so that the cells of a face
+// sort by place and a cell owns the codes [cell, cell + cell_span(level)).
 #pragma once
 
 #include "tables.h"
@@ -32,8 +32,8 @@ inline uint32_t cell_ancestor(uint32_t cell, uint32_t level) {
 // Which child of its parent a cell of this level (>= 1) is.
 inline uint32_t cell_child(uint32_t cell, uint32_t level) { return cell >> (32 - 2 * level) & 3; }
 
-// A cell's place in the parameters of its face: its own parameters (s, t) are at origin + size * (s, t). size is
-// negative for a triangle's turned cells.
+// A cell's place in the parameters of its face: its own parameters (s, t) are at origin + size * (s, t). size
+// is negative for a triangle's turned cells.
 struct CellFrame {
   Vec2 origin;
   float size;

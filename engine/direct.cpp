@@ -1,8 +1,9 @@
 // Elements and lamps to direct irradiance.
 //
-// Per lamp: the exact unoccluded factor, times sum(k V) / sum(k) over pairs of points, k the form-factor kernel and V
-// their visibility. A plain visible share instead is biased for near and large pairs. (Ratio estimators in
-// rendering: Heitz, Hill, McGuire: Combining Analytic Direct Illumination and Stochastic Shadows, 2018.)
+// Per lamp: the exact unoccluded factor, times sum(k V) / sum(k) over pairs of points, k the form-factor
+// kernel and V their visibility. A plain visible share instead is biased for near and large pairs. (Ratio
+// estimators in rendering: Heitz, Hill, McGuire: Combining Analytic Direct Illumination and Stochastic
+// Shadows, 2018.)
 #include "direct.h"
 
 #include "lambert.h"
@@ -17,9 +18,11 @@
 namespace patchlight {
 namespace {
 
-// Above this share of its sky a patch leaves lamps to its row: closed rooms in which all emits come out exact then.
+// Above this share of its sky a patch leaves lamps to its row: closed rooms in which all emits come out exact
+// then.
 constexpr double kLampSkyMax = 0.8;
-// A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at most).
+// A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at
+// most).
 constexpr float kFarLamp = 0.05f;
 // An element nearer to a lamp than this many of its edges takes the mean of four points.
 constexpr float kNearLamp = 4;
@@ -34,10 +37,17 @@ struct Lamp {
 };
 
 Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face) {
-  Lamp lamp{face, cell_centre(frames, face, 0, 0), faces.normal[face], faces.corners[face], faces.corner_count[face],
-            cell_area(frames, face, 0, 0), 0, Vec2(0)};
+  Lamp lamp{face,
+            cell_centre(frames, face, 0, 0),
+            faces.normal[face],
+            faces.corners[face],
+            faces.corner_count[face],
+            cell_area(frames, face, 0, 0),
+            0,
+            Vec2(0)};
   for (size_t a = 0; a < lamp.corner_count; ++a)
-    for (size_t b = 0; b < a; ++b) lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
+    for (size_t b = 0; b < a; ++b)
+      lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
   if (!frames.affine[face])
     lamp.twist = {dot(frames.twist[face], frames.dual_u[face]), dot(frames.twist[face], frames.dual_v[face])};
   return lamp;
@@ -62,7 +72,8 @@ bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) 
     return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return dot(p - base, up) > slack; });
   };
   const float slack = ray_offset(patch[0]);
-  return any_above(lamp.corners, patch[0], normal, slack) && any_above(patch, lamp.centre, lamp.normal, slack);
+  return any_above(lamp.corners, patch[0], normal, slack) &&
+         any_above(patch, lamp.centre, lamp.normal, slack);
 }
 
 // Sixteen points of an element, packet `packet` of four: the union of the four packets is stratified 8 x 8.
@@ -73,18 +84,19 @@ struct Points {
 
 Vec2 stratified_sample(uint64_t key, uint32_t packet, uint32_t column, uint32_t row, uint32_t index) {
   const Vec2 jitter = make_jitter(key, packet * kPacketSize + index);
-  const Vec2 quarter(static_cast<float>((packet ^ index) & 1u), static_cast<float>(((packet >> 1) ^ (index >> 2)) & 1u));
+  const Vec2 quarter(static_cast<float>((packet ^ index) & 1u),
+                     static_cast<float>(((packet >> 1) ^ (index >> 2)) & 1u));
   return (Vec2(static_cast<float>(column), static_cast<float>(row)) + 0.5f * (quarter + jitter)) * 0.25f;
 }
 
-void make_points(Points& points, const FaceFrameTable& frames, const PatchTable& elements, uint32_t row, uint64_t key,
-                 uint32_t packet) {
+void make_points(Points& points, const FaceFrameTable& frames, const PatchTable& elements, uint32_t row,
+                 uint64_t key, uint32_t packet) {
   const uint32_t face = elements.face[row];
   const bool triangle = frames.triangle[face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
   for (uint32_t k = 0; k < kPacketSize; ++k)
-    points.point[k] = face_point(frames, face,
-                                 cell_sample(triangle, cell, stratified_sample(key, packet, k % 4, k / 4, k)));
+    points.point[k] = face_point(
+        frames, face, cell_sample(triangle, cell, stratified_sample(key, packet, k % 4, k / 4, k)));
 }
 
 uint32_t find_buried_points(const Points& points, Vec3 normal, const FaceTable& faces, const Tracer& tracer) {
@@ -106,12 +118,13 @@ struct VisibilitySums {
 };
 
 // Adds one packet of pairs: the element's points against points of the lamp.
-void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal, const Lamp& lamp,
-                    const FaceFrameTable& frames, const Tracer& tracer, uint64_t key, uint32_t packet) {
+void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
+                    const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
+                    uint32_t packet) {
   const CellFrame whole{Vec2(0), 1};
   const bool triangle = frames.triangle[lamp.face];
-  // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one meets each axis
-  // of the other evenly.
+  // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one
+  // meets each axis of the other evenly.
   const uint64_t lamp_key = mix_bits(key ^ (uint64_t{lamp.face} + 1) * 0x9e3779b97f4a7c15ull);
   const auto shuffle = static_cast<uint32_t>(lamp_key >> 8 >> 4 * packet);
   RayPacket rays;
@@ -143,10 +156,11 @@ void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable,
   sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
 }
 
-// The element's mean unoccluded factor: at its centre, at four points if the lamp is near, at its exposed points if part
-// of it is buried.
+// The element's mean unoccluded factor: at its centre, at four points if the lamp is near, at its exposed
+// points if part of it is buried.
 float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames, uint32_t row, Vec3 normal,
-                       const std::array<Vec3, 4>& corners, const Lamp& lamp, const Points& points, uint32_t usable) {
+                       const std::array<Vec3, 4>& corners, const Lamp& lamp, const Points& points,
+                       uint32_t usable) {
   if (usable != 0xffff) {
     float sum = 0;
     for (uint32_t k = 0; k < kPacketSize; ++k)
@@ -214,9 +228,10 @@ AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const P
   return aims;
 }
 
-uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows, std::span<const uint32_t> element_patch,
-                      const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
-                      const Tracer& tracer, uint64_t seed) {
+uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
+                      std::span<const uint32_t> element_patch, const PatchTable& patches,
+                      const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
+                      uint64_t seed) {
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 256, [&](size_t begin, size_t end) {
     Points points;
@@ -274,7 +289,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
           hidden |= bit;
           continue;
         }
-        const float factor = find_mean_factor(elements, frames, row, normal, corners, lamp, first_points, usable);
+        const float factor =
+            find_mean_factor(elements, frames, row, normal, corners, lamp, first_points, usable);
         const Rgb emission = faces.emission[lamp.face];
         if (factor == 0) continue;  // the lamp's horizon may still cross a part of the element
         if (settled_seen & bit) {
@@ -286,7 +302,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
         if (sums.reached > 0 && sums.reached < sums.rays)
           for (uint32_t packet = 1; packet < packets_mixed; ++packet) {
             make_points(points, frames, elements, row, key, packet);
-            const uint32_t open = usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
+            const uint32_t open =
+                usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
             add_visibility(sums, points, open, normal, lamp, frames, tracer, key, packet);
           }
         cast += sums.rays;
@@ -308,8 +325,9 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
   return ray_count;
 }
 
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, std::span<const uint32_t> element_patch,
-                      const AimTable& aims, const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row) {
+uint64_t find_settled(const LampViewTable& views, const PatchTable& elements,
+                      std::span<const uint32_t> element_patch, const AimTable& aims,
+                      const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row) {
   const uint32_t patch = element_patch[row];
   uint64_t agreed = views.seen[row] | views.hidden[row];
   for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
@@ -324,12 +342,14 @@ uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, st
         agreed &= (views.seen[row] & views.seen[other]) | (views.hidden[row] & views.hidden[other]);
         continue;
       }
-      // The other patch has a list of its own: walk both, ascending. A lamp that it does not aim at does not count.
+      // The other patch has a list of its own: walk both, ascending. A lamp that it does not aim at does not
+      // count.
       const uint32_t* at = theirs;
       for (const uint32_t* lamp = mine; lamp < mine_end; ++lamp) {
         while (at < theirs_end && *at < *lamp) ++at;
         if (at == theirs_end || *at != *lamp) continue;
-        const uint32_t my_bit = static_cast<uint32_t>(lamp - mine), their_bit = static_cast<uint32_t>(at - theirs);
+        const uint32_t my_bit = static_cast<uint32_t>(lamp - mine),
+                       their_bit = static_cast<uint32_t>(at - theirs);
         const bool both_see = (views.seen[row] >> my_bit & 1u) && (views.seen[other] >> their_bit & 1u);
         const bool both_hide = (views.hidden[row] >> my_bit & 1u) && (views.hidden[other] >> their_bit & 1u);
         if (!both_see && !both_hide) agreed &= ~(uint64_t{1} << my_bit);

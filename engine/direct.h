@@ -1,5 +1,5 @@
-// Direct light on elements from the lamps that their patch aims at: Lambert's formula times a ratio estimate of
-// visibility.
+// Direct light on elements from the lamps that their patch aims at: Lambert's formula times a ratio estimate
+// of visibility.
 #pragma once
 
 #include "quadtree.h"
@@ -9,35 +9,41 @@
 
 namespace patchlight {
 
-// Which lamps each patch aims at: up to kAimedLampsMax of those that could reach it, the strongest first chosen; none
-// where lamps fill most of its sky, for then its row sees them better.
+// Which lamps each patch aims at: up to kAimedLampsMax of those that could reach it, the strongest first
+// chosen; none where lamps fill most of its sky, for then its row sees them better.
 AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches);
 
 // True if patch `patch` aims at lamp `face`: then its row must not count that lamp's emission again.
 inline bool is_aimed(const AimTable& aims, uint32_t patch, uint32_t face) {
-  const auto first = aims.lamp.begin() + aims.patch_first[patch], last = aims.lamp.begin() + aims.patch_first[patch + 1];
+  const auto first = aims.lamp.begin() + aims.patch_first[patch],
+             last = aims.lamp.begin() + aims.patch_first[patch + 1];
   return std::binary_search(first, last, face);
 }
 
-// The exposed share of those elements of `rows` whose patch is partly buried, from 16 points each; 1 or 0 elsewhere.
-uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows, std::span<const uint32_t> element_patch,
-                      const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
-                      const Tracer& tracer, uint64_t seed);
+// The exposed share of those elements of `rows` whose patch is partly buried, from 16 points each; 1 or 0
+// elsewhere.
+uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
+                      std::span<const uint32_t> element_patch, const PatchTable& patches,
+                      const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
+                      uint64_t seed);
 
 struct DirectColumns {
   std::span<Rgb> irradiance;  // a row an element, W/m2: mean over its exposed area
-  std::span<float> error;     // a row an element: standard error of its luminance, W/m2; 0 where no shadow edge lies
-  LampViewTable& views;       // in: what is settled; out: what was seen
+  std::span<float>
+      error;  // a row an element: standard error of its luminance, W/m2; 0 where no shadow edge lies
+  LampViewTable& views;  // in: what is settled; out: what was seen
 };
 
-// Direct light of the elements `rows`; others are not touched. 16 rays a lamp and element, `rays` / 4 in penumbra, none
-// where it is settled. Returns the number of rays.
+// Direct light of the elements `rows`; others are not touched. 16 rays a lamp and element, `rays` / 4 in
+// penumbra, none where it is settled. Returns the number of rays.
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
                      std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
                      const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays, uint64_t seed);
 
-// Settles lamps for an element that is about to be split: those that it and all its neighbours see whole, or not at all.
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, std::span<const uint32_t> element_patch,
-                      const AimTable& aims, const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row);
+// Settles lamps for an element that is about to be split: those that it and all its neighbours see whole, or
+// not at all.
+uint64_t find_settled(const LampViewTable& views, const PatchTable& elements,
+                      std::span<const uint32_t> element_patch, const AimTable& aims,
+                      const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row);
 
 }  // namespace patchlight

@@ -12,8 +12,8 @@
 namespace patchlight {
 namespace {
 
-constexpr uint32_t kSide = 4;        // samples a pixel: 4 x 4
-constexpr uint32_t kSideLamps = 16;  // where a lamp's border shows: 16 x 16
+constexpr uint32_t kSide = 4;           // samples a pixel: 4 x 4
+constexpr uint32_t kSideLamps = 16;     // where a lamp's border shows: 16 x 16
 constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
 
 struct Pinhole {
@@ -43,7 +43,8 @@ uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t c
 
 // Sixteen camera rays through the points (x, y) of the picture, in pixels from the top left.
 uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole, const View& view,
-              const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements, const Tracer& tracer) {
+              const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements,
+              const Tracer& tracer) {
   HitPacket packet;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const float x = 2 * at[k].x / static_cast<float>(view.width) - 1;
@@ -76,7 +77,8 @@ uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole,
       active &= ~(1u << k);
       if (face == kNone) continue;
       seen.uv[k] = find_face_parameters(frames, face, pinhole.eye + r.far_distance[k] * direction);
-      seen.element[k] = guess = find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
+      seen.element[k] = guess =
+          find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
     }
   }
   return rays;
@@ -119,7 +121,8 @@ void add_sample(PixelSum& sum, const Solution& s, const Seen& seen, uint32_t k, 
   sum.add(corner[3], share * (1 - st.x) * st.y);
 }
 
-// Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is small and bright.
+// Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is
+// small and bright.
 std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pinhole, const View& view) {
   constexpr float kSmallLamp = 32;  // pixels
   std::vector<uint8_t> pixels(size_t{view.width} * view.height, 0);
@@ -139,7 +142,8 @@ std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pin
     if (behind) continue;
     const float left = (low.x + 1) / 2 * width, right = (high.x + 1) / 2 * width;
     const float top = (1 - high.y) / 2 * height, bottom = (1 - low.y) / 2 * height;
-    if (right < 0 || bottom < 0 || left > width || top > height || std::max(right - left, bottom - top) > kSmallLamp)
+    if (right < 0 || bottom < 0 || left > width || top > height ||
+        std::max(right - left, bottom - top) > kSmallLamp)
       continue;
     const auto x_end = static_cast<uint32_t>(std::min(right + 2, width));
     const auto y_end = static_cast<uint32_t>(std::min(bottom + 2, height));
@@ -150,10 +154,10 @@ std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pin
   return pixels;
 }
 
-// How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel on shows
-// another element lie on a line one pixel wide.
-std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, const Solution& s, const FaceTable& faces,
-                                   const Tracer& tracer) {
+// How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel
+// on shows another element lie on a line one pixel wide.
+std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, const Solution& s,
+                                   const FaceTable& faces, const Tracer& tracer) {
   const size_t columns = size_t{view.width} * kSide, rows = size_t{view.height} * kSide;
   std::vector<uint32_t> shown(columns * rows);
   for_rows(size_t{view.width} * view.height, 256, [&](size_t begin, size_t end) {
@@ -222,7 +226,8 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
           const float step = 1 / static_cast<float>(side), share = step * step;
           for (uint32_t tile = 0; tile < tiles * tiles; ++tile) {
             for (uint32_t k = 0; k < kPacketSize; ++k) {
-              const Vec2 stratum(static_cast<float>(tile % tiles * 4 + k % 4), static_cast<float>(tile / tiles * 4 + k / 4));
+              const Vec2 stratum(static_cast<float>(tile % tiles * 4 + k % 4),
+                                 static_cast<float>(tile / tiles * 4 + k / 4));
               at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
             }
             rays += look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);

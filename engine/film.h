@@ -1,5 +1,5 @@
-// A camera's picture as a gather: each pixel is a weighted sum of vertex (or element) values. The weights depend on
-// the view only, so one film serves all passes of a run.
+// A camera's picture as a gather: each pixel is a weighted sum of vertex (or element) values. The weights
+// depend on the view only, so one film serves all passes of a run.
 #pragma once
 
 #include "solve.h"
@@ -11,19 +11,19 @@
 namespace patchlight {
 
 struct View {
-  Vec3 eye, target, up;      // lengths
-  float fov_degrees = 60;    // vertical
+  Vec3 eye, target, up;    // lengths
+  float fov_degrees = 60;  // vertical
   uint32_t width = 0, height = 0;
 };
 
 struct FilmSettings {
-  bool smooth = true;         // vertex values, bilinear; false: one value an element
-  bool mesh_lines = false;    // also find where the edges of the elements run
+  bool smooth = true;       // vertex values, bilinear; false: one value an element
+  bool mesh_lines = false;  // also find where the edges of the elements run
   uint64_t seed = 1;
 };
 
-// CSR: pixel (row by row from the top left) -> (value, weight). Weights of a pixel sum to its share that shows
-// the scene; the rest is background, 0.
+// CSR: pixel (row by row from the top left) -> (value, weight). Weights of a pixel sum to its share that
+// shows the scene; the rest is background, 0.
 struct FilmTable {
   uint32_t width = 0, height = 0;
   std::vector<uint64_t> pixel_first;

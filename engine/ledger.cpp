@@ -13,8 +13,8 @@ struct Shares {
 };
 
 // Where a face's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
-Shares find_emission_shares(uint32_t face, uint32_t rays, const FaceTable& faces, const FaceFrameTable& frames,
-                            const Tracer& tracer, uint64_t seed) {
+Shares find_emission_shares(uint32_t face, uint32_t rays, const FaceTable& faces,
+                            const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed) {
   const RowGrid grid = make_row_grid(rays);
   const Frame frame = make_frame(faces.normal[face]);
   const uint64_t key = make_row_key(seed, face, 0, 0, kRowEmission);
@@ -28,7 +28,8 @@ Shares find_emission_shares(uint32_t face, uint32_t rays, const FaceTable& faces
         const RayPacket& r = packet.ray;
         if (packet.face[k] == kNone) {
           ++nothing[tile];
-        } else if (dot(Vec3(r.direction_x[k], r.direction_y[k], r.direction_z[k]), faces.normal[packet.face[k]]) >= 0) {
+        } else if (dot(Vec3(r.direction_x[k], r.direction_y[k], r.direction_z[k]),
+                       faces.normal[packet.face[k]]) >= 0) {
           ++back[tile];
         }
       }

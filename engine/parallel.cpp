@@ -42,9 +42,7 @@ size_t thread_count() {
   return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
 
-size_t thread_count_default() {
-  return static_cast<size_t>(std::max(tbb::info::default_concurrency(), 1));
-}
+size_t thread_count_default() { return static_cast<size_t>(std::max(tbb::info::default_concurrency(), 1)); }
 
 void request_cancel() noexcept { cancel_flag.store(true, std::memory_order_relaxed); }
 bool cancel_requested() noexcept { return cancel_flag.load(std::memory_order_relaxed); }

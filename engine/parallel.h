@@ -15,8 +15,8 @@ struct Cancelled : std::exception {
 };
 
 // Calls body(begin, end) over [0, count) in ranges of about `grain` rows, on all threads. Every row must be
-// written by one range only and from inputs that no range writes: then the result does not depend on the threads.
-// Throws what a body throws, and Cancelled.
+// written by one range only and from inputs that no range writes: then the result does not depend on the
+// threads. Throws what a body throws, and Cancelled.
 void for_rows(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body);
 
 // Ascending order. Equal keys are alike, so that the result does not depend on the threads.

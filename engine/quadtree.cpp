@@ -13,7 +13,8 @@
 namespace patchlight {
 namespace {
 
-// A cell by its place in the grid of its level. A triangle's turned cell (i, j) shares its long edge with (i, j).
+// A cell by its place in the grid of its level. A triangle's turned cell (i, j) shares its long edge with (i,
+// j).
 struct GridCell {
   uint32_t face = kNone;
   int32_t i = 0, j = 0;
@@ -36,8 +37,8 @@ uint32_t find_grid_code(bool triangle, const GridCell& place, uint32_t level) {
 }
 
 // The cell of the same level across an edge; face kNone at the polygon's border.
-GridCell step_across(const FaceFrameTable& frames, const FaceLinkTable& links, const GridCell& from, uint32_t edge,
-                     uint32_t level) {
+GridCell step_across(const FaceFrameTable& frames, const FaceLinkTable& links, const GridCell& from,
+                     uint32_t edge, uint32_t level) {
   const int32_t n = 1 << level;
   GridCell to = from;
   bool inside = true;
@@ -71,7 +72,8 @@ GridCell step_across(const FaceFrameTable& frames, const FaceLinkTable& links, c
   return {link.face, 0, n - 1 - s, false};
 }
 
-// The leaf that holds the cell across an edge of a cell: as large, larger, or the first of the finer ones in it.
+// The leaf that holds the cell across an edge of a cell: as large, larger, or the first of the finer ones in
+// it.
 uint32_t find_across(const PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links,
                      uint32_t face, uint32_t cell, uint32_t level, uint32_t edge) {
   const GridCell from = find_grid_cell(frames.triangle[face], face, cell, level);
@@ -87,7 +89,9 @@ std::array<uint32_t, 2> children_on_edge(bool triangle, uint32_t edge) {
   return kQuad[edge];
 }
 
-uint32_t child_cell(uint32_t cell, uint32_t level, uint32_t child) { return cell | child << (30 - 2 * level); }
+uint32_t child_cell(uint32_t cell, uint32_t level, uint32_t child) {
+  return cell | child << (30 - 2 * level);
+}
 
 struct CornerKey {
   uint32_t polygon;
@@ -180,8 +184,8 @@ uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell) {
   return low;
 }
 
-uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links,
-                               uint32_t row, uint32_t edge) {
+uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& frames,
+                               const FaceLinkTable& links, uint32_t row, uint32_t edge) {
   const uint32_t other =
       find_across(leaves, frames, links, leaves.face[row], leaves.cell[row], leaves.level[row], edge);
   return other == kNone || leaves.level[other] > leaves.level[row] ? kNone : other;
@@ -215,8 +219,8 @@ void mark_for_balance(std::vector<uint8_t>& marks, const PatchTable& leaves, con
   }
 }
 
-PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames, std::span<const uint8_t> marks,
-                        std::vector<uint32_t>& parent) {
+PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames,
+                        std::span<const uint8_t> marks, std::vector<uint32_t>& parent) {
   assert(marks.size() == leaves.size());
   std::vector<uint32_t> first(leaves.size() + 1, 0);
   for (size_t row = 0; row < leaves.size(); ++row) first[row + 1] = first[row] + (marks[row] ? 4 : 1);
@@ -237,7 +241,8 @@ PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames, 
       for (uint32_t to = first[row]; to < first[row + 1]; ++to) {
         result.face[to] = face;
         result.level[to] = static_cast<uint8_t>(level);
-        result.cell[to] = marks[row] ? child_cell(leaves.cell[row], level - 1, to - first[row]) : leaves.cell[row];
+        result.cell[to] =
+            marks[row] ? child_cell(leaves.cell[row], level - 1, to - first[row]) : leaves.cell[row];
         result.area[to] = marks[row] ? cell_area(frames, face, result.cell[to], level) : leaves.area[row];
         result.exposed[to] = leaves.exposed[row];
         result.radiosity[to] = leaves.radiosity[row];

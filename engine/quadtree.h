@@ -1,5 +1,5 @@
-// Leaves of quadtrees: making, finding, neighbours, splitting. All trees are kept balanced: leaves that share part of an
-// edge, also across the faces of one polygon, differ by one level at most.
+// Leaves of quadtrees: making, finding, neighbours, splitting. All trees are kept balanced: leaves that share
+// part of an edge, also across the faces of one polygon, differ by one level at most.
 #pragma once
 
 #include "cell.h"
@@ -9,8 +9,8 @@
 
 namespace patchlight {
 
-// Which edges and corners of the faces of one polygon coincide. Faces of a polygon must share whole edges or nothing
-// (the loader cuts them so); coinciding corners must be equal bit by bit.
+// Which edges and corners of the faces of one polygon coincide. Faces of a polygon must share whole edges or
+// nothing (the loader cuts them so); coinciding corners must be equal bit by bit.
 FaceLinkTable make_face_links(const FaceTable& faces);
 
 // Leaves of `level_of(face)` on every face, not yet balanced. Radiosity columns start at the face's emission.
@@ -20,29 +20,32 @@ PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
 // The row of the leaf that holds a cell of level kLevelMax.
 uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell);
 
-// The leaves that share part of edge `edge` with leaf `row`: one, or two that are finer; kNone fills up. At the border
-// of a polygon both are kNone.
+// The leaves that share part of edge `edge` with leaf `row`: one, or two that are finer; kNone fills up. At
+// the border of a polygon both are kNone.
 std::array<uint32_t, 2> find_neighbours(const PatchTable& leaves, const FaceFrameTable& frames,
                                         const FaceLinkTable& links, uint32_t row, uint32_t edge);
-inline uint32_t edge_count(const FaceFrameTable& frames, uint32_t face) { return frames.triangle[face] ? 3 : 4; }
+inline uint32_t edge_count(const FaceFrameTable& frames, uint32_t face) {
+  return frames.triangle[face] ? 3 : 4;
+}
 
 // The leaf across an edge if it is as large as leaf `row` or larger, else kNone.
-uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links,
-                               uint32_t row, uint32_t edge);
+uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& frames,
+                               const FaceLinkTable& links, uint32_t row, uint32_t edge);
 
 // Marks, too, what must be split so that splitting the marked leaves keeps the tree balanced. A row a leaf.
 void mark_for_balance(std::vector<uint8_t>& marks, const PatchTable& leaves, const FaceFrameTable& frames,
                       const FaceLinkTable& links);
 
-// Splits the marked leaves into four; the children inherit all columns (same W/m2, so the power is unchanged), a
-// quarter each of the area as their shapes have it. parent[row of the result] = row before.
-PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames, std::span<const uint8_t> marks,
-                        std::vector<uint32_t>& parent);
+// Splits the marked leaves into four; the children inherit all columns (same W/m2, so the power is
+// unchanged), a quarter each of the area as their shapes have it. parent[row of the result] = row before.
+PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames,
+                        std::span<const uint8_t> marks, std::vector<uint32_t>& parent);
 
 // Splits until neighbours differ by one level at most.
 void balance_leaves(PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links);
 
-// CSR: row of `coarse` -> rows of `fine`, where every coarse leaf is a union of fine ones; coarse.size() + 1 entries.
+// CSR: row of `coarse` -> rows of `fine`, where every coarse leaf is a union of fine ones; coarse.size() + 1
+// entries.
 std::vector<uint32_t> find_union_ranges(const PatchTable& coarse, const PatchTable& fine);
 
 }  // namespace patchlight

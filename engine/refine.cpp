@@ -1,7 +1,7 @@
 // Differences between neighbours to marks.
 //
-// After the classroom rule: check neighbouring patches; if their radiosities differ more than a threshold, subdivide
-// both (Cohen, Greenberg, Immel, Brock 1986 split on gradients alike).
+// After the classroom rule: check neighbouring patches; if their radiosities differ more than a threshold,
+// subdivide both (Cohen, Greenberg, Immel, Brock 1986 split on gradients alike).
 #include "refine.h"
 
 #include "parallel.h"
@@ -12,22 +12,24 @@
 namespace patchlight {
 namespace {
 
-constexpr float kFloorOfMean = 0.01f;   // differences below this share of the mean are not seen
-constexpr float kNoiseMargin = 3;       // standard errors that a difference must exceed
+constexpr float kFloorOfMean = 0.01f;  // differences below this share of the mean are not seen
+constexpr float kNoiseMargin = 3;      // standard errors that a difference must exceed
 
 // By how much the pair exceeds what is allowed, W/m2; 0 or less: it does not.
 float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float threshold) {
   const Rgb va = input.elements.radiosity[a], vb = input.elements.radiosity[b];
   const float difference = largest(abs(va - vb)), larger = std::max(largest(va), largest(vb));
   const float noise = std::hypot(input.error[a], input.error[b]);
-  const float allowed = std::max(threshold * larger, kFloorOfMean * input.mean_radiosity) + kNoiseMargin * noise;
+  const float allowed =
+      std::max(threshold * larger, kFloorOfMean * input.mean_radiosity) + kNoiseMargin * noise;
   return difference > allowed ? difference : 0;
 }
 
 }  // namespace
 
-std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames, const FaceLinkTable& links,
-                                    float threshold, float patch_size_min, uint64_t patch_count_max) {
+std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames,
+                                    const FaceLinkTable& links, float threshold, float patch_size_min,
+                                    uint64_t patch_count_max) {
   const PatchTable& elements = input.elements;
   std::vector<float> excess(elements.size(), 0);  // the largest difference that each element has a part in
   for_rows(input.fresh.size(), 512, [&](size_t begin, size_t end) {
@@ -35,7 +37,8 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
     const auto raise = [&](uint32_t row, float value) {
       std::atomic_ref<float> slot(excess[row]);
       float before = slot.load(std::memory_order_relaxed);
-      while (before < value && !slot.compare_exchange_weak(before, value, std::memory_order_relaxed)) {}
+      while (before < value && !slot.compare_exchange_weak(before, value, std::memory_order_relaxed)) {
+      }
     };
     for (size_t k = begin; k < end; ++k) {
       const uint32_t row = input.fresh[k];
@@ -63,7 +66,8 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
     });
   }
   // Splits for balance count towards the budget, too: take fewer until all fit.
-  for (size_t take = std::min<size_t>(candidates.size(), room); take > 0; take -= std::max<size_t>(take / 8, 1)) {
+  for (size_t take = std::min<size_t>(candidates.size(), room); take > 0;
+       take -= std::max<size_t>(take / 8, 1)) {
     std::vector<uint8_t> marks(elements.size(), 0);
     for (size_t k = 0; k < take; ++k) marks[candidates[k]] = 1;
     mark_for_balance(marks, elements, frames, links);

@@ -7,17 +7,18 @@
 namespace patchlight {
 
 struct RefineInput {
-  const PatchTable& elements;             // radiosity: the coarse solution's
-  std::span<const float> error;           // a row an element: standard error of its radiosity, W/m2
-  std::span<const uint32_t> fresh;        // elements not compared yet
-  float mean_radiosity;                   // W/m2, of reflected light
+  const PatchTable& elements;       // radiosity: the coarse solution's
+  std::span<const float> error;     // a row an element: standard error of its radiosity, W/m2
+  std::span<const uint32_t> fresh;  // elements not compared yet
+  float mean_radiosity;             // W/m2, of reflected light
 };
 
-// Marks both of two neighbours whose radiosities differ by more than `threshold` of the larger one (largest channel),
-// by more than 1 % of the mean, and by more than their noise explains; not those whose longest edge is below
-// patch_size_min. Where the budget does not suffice, the largest differences (times area) go first. Keeps the tree
-// balanced. Returns a row an element; all 0 if nothing is to be split.
-std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames, const FaceLinkTable& links,
-                                    float threshold, float patch_size_min, uint64_t patch_count_max);
+// Marks both of two neighbours whose radiosities differ by more than `threshold` of the larger one (largest
+// channel), by more than 1 % of the mean, and by more than their noise explains; not those whose longest edge
+// is below patch_size_min. Where the budget does not suffice, the largest differences (times area) go first.
+// Keeps the tree balanced. Returns a row an element; all 0 if nothing is to be split.
+std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames,
+                                    const FaceLinkTable& links, float threshold, float patch_size_min,
+                                    uint64_t patch_count_max);
 
 }  // namespace patchlight

@@ -18,11 +18,12 @@ constexpr uint32_t kProbeRays = 32;
 constexpr float kPatchEdgeMax = 0.06f;
 constexpr float kPatchEdgeMin = 0.006f;
 constexpr float kPatchEdgeMinAtSolid = 0.003f;
-// A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992, use
-// the same mean for the reach of a sample).
+// A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992,
+// use the same mean for the reach of a sample).
 constexpr float kPatchEdgePerDistance = 0.25f;
 
-// The step for which the lattice (k, k * step mod count) fills the square most evenly: its shortest vector is longest.
+// The step for which the lattice (k, k * step mod count) fills the square most evenly: its shortest vector is
+// longest.
 uint32_t find_lattice_step(uint32_t count) {
   uint32_t best = 1, best_length = 0;
   for (uint32_t step = 1; step < count; ++step) {
@@ -37,8 +38,9 @@ uint32_t find_lattice_step(uint32_t count) {
   return best;
 }
 
-// Malley's direction from a point of the unit square, as make_cosine_direction, but a loop over lanes of it compiles to
-// wide instructions: no branches, sine and cosine as polynomials (|angle| <= pi / 4, error below 4e-7).
+// Malley's direction from a point of the unit square, as make_cosine_direction, but a loop over lanes of it
+// compiles to wide instructions: no branches, sine and cosine as polynomials (|angle| <= pi / 4, error below
+// 4e-7).
 inline Vec3 make_local_direction(float px, float py) {
   const float a = 2 * px - 1, b = 2 * py - 1;
   const bool wide = std::abs(a) > std::abs(b);
@@ -60,8 +62,8 @@ RowGrid make_row_grid(uint32_t rays) {
   return {columns, rows, find_lattice_step(columns), find_lattice_step(rows)};
 }
 
-void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face, uint32_t cell,
-                     uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet) {
+void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face,
+                     uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet) {
   const bool triangle = frames.triangle[face];
   const CellFrame place = make_cell_frame(triangle, cell, level);
   const uint32_t tile_columns = grid.columns / 4;
@@ -76,14 +78,16 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
     const Vec2 d = make_jitter(row_key, 2 * index), o = make_jitter(row_key, 2 * index + 1);
     direction_x[k] = (static_cast<float>(a) + d.x) * scale_x;
     direction_y[k] = (static_cast<float>(b) + d.y) * scale_y;
-    // Every packet's sixteen origins are spread over the whole patch, and every stratum of the patch is used once.
+    // Every packet's sixteen origins are spread over the whole patch, and every stratum of the patch is used
+    // once.
     const uint32_t c = (b * grid.row_step + shift_u) % grid.rows;
     const uint32_t e = (a * grid.column_step + shift_v) % grid.columns;
-    const Vec2 uv = cell_sample(triangle, place, {(static_cast<float>(c) + o.x) * scale_y,
-                                                  (static_cast<float>(e) + o.y) * scale_x});
+    const Vec2 uv = cell_sample(
+        triangle, place, {(static_cast<float>(c) + o.x) * scale_y, (static_cast<float>(e) + o.y) * scale_x});
     origin_s[k] = uv.x, origin_t[k] = uv.y;
   }
-  const Vec3 corner = frames.origin[face], u = frames.edge_u[face], v = frames.edge_v[face], twist = frames.twist[face];
+  const Vec3 corner = frames.origin[face], u = frames.edge_u[face], v = frames.edge_v[face],
+             twist = frames.twist[face];
   const Vec3 tangent = frame.tangent, bitangent = frame.bitangent, normal = frame.normal;
   RayPacket& ray = rays.ray;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
@@ -158,7 +162,8 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const FaceTable& faces, 
             back |= 1u << k;
             continue;
           }
-          const Vec3 point = Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) + r.far_distance[k] * direction;
+          const Vec3 point =
+              Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) + r.far_distance[k] * direction;
           const uint32_t cell = find_cell(frames.triangle[seen], find_face_parameters(frames, seen, point));
           hits.patch[first + k] = find_leaf(patches, seen, cell);
           hits.cell[first + k] = cell;
@@ -183,7 +188,8 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
   PatchTable patches = make_leaves(faces, frames, [&](uint32_t face) {
     uint32_t level = 0;
     float edge = longest_edge(cell_corners(frames, face, 0, 0));
-    while (edge > kPatchEdgeMax * scale && level < kLevelMax && (faces.size() << 2 * level) < patch_count_max / 4)
+    while (edge > kPatchEdgeMax * scale && level < kLevelMax &&
+           (faces.size() << 2 * level) < patch_count_max / 4)
       edge /= 2, ++level;
     return level;
   });

@@ -1,7 +1,8 @@
-// Form-factor rows by ray casting: from each patch a fixed set of rays with cosine density, and where they end.
+// Form-factor rows by ray casting: from each patch a fixed set of rays with cosine density, and where they
+// end.
 //
-// The share of a row's rays that end on patch j estimates F_ij; rays that leave the scene stay in the count, so a
-// row is never scaled to sum to 1 (Malley: A Shading Method for Computer Generated Images, 1988).
+// The share of a row's rays that end on patch j estimates F_ij; rays that leave the scene stay in the count,
+// so a row is never scaled to sum to 1 (Malley: A Shading Method for Computer Generated Images, 1988).
 #pragma once
 
 #include "cell.h"
@@ -13,8 +14,8 @@ namespace patchlight {
 // What the samples of a row are for: rows of different purposes are unrelated.
 enum RowPurpose : uint32_t { kRowProbe = 1, kRowHits, kRowDirect, kRowAimed, kRowEmission };
 
-// Directions of a row: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins take the
-// strata of the other axis, permuted by a lattice: stratum k goes with k * step modulo their number.
+// Directions of a row: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins
+// take the strata of the other axis, permuted by a lattice: stratum k goes with k * step modulo their number.
 struct RowGrid {
   uint32_t columns = 4, rows = 4;  // both multiples of 4
   uint32_t column_step = 1, row_step = 1;
@@ -23,12 +24,13 @@ struct RowGrid {
 };
 RowGrid make_row_grid(uint32_t rays);
 
-// Rays `packet` (of grid.packet_count()) of the row of a cell: origins spread over the cell, just off its face.
-void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face, uint32_t cell,
-                     uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet);
+// Rays `packet` (of grid.packet_count()) of the row of a cell: origins spread over the cell, just off its
+// face.
+void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face,
+                     uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet);
 
-// Of the rays' origins (points just off the face with this frame), those that lie inside a solid: from there only back
-// sides are seen, along the normal and in three directions about it.
+// Of the rays' origins (points just off the face with this frame), those that lie inside a solid: from there
+// only back sides are seen, along the normal and in three directions about it.
 uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& frame, const RayPacket& rays,
                      uint32_t active);
 
@@ -36,8 +38,8 @@ uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& 
 uint64_t cast_rows(HitTable& hits, PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
                    const Tracer& tracer, uint32_t rays, uint64_t seed);
 
-// Patches as fine as the transport between them needs: split while larger than a quarter of the mean distance to
-// what they see. Returns balanced leaves; ray_count is raised by the probing rays.
+// Patches as fine as the transport between them needs: split while larger than a quarter of the mean distance
+// to what they see. Returns balanced leaves; ray_count is raised by the probing rays.
 PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
                         const Tracer& tracer, uint64_t patch_count_max, uint64_t seed, uint64_t& ray_count);
 

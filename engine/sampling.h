@@ -1,5 +1,5 @@
-// Samples that depend on (seed, row, index) alone, never on a thread or on time: counter-based hashing, stratified
-// points, cosine directions.
+// Samples that depend on (seed, row, index) alone, never on a thread or on time: counter-based hashing,
+// stratified points, cosine directions.
 #pragma once
 
 #include "vector.h"
@@ -36,8 +36,8 @@ inline Vec2 square_to_disk(Vec2 p) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// Two unit vectors that complete a normal to a right-handed frame (Duff et al.: Building an Orthonormal Basis,
-// Revisited, 2017).
+// Two unit vectors that complete a normal to a right-handed frame (Duff et al.: Building an Orthonormal
+// Basis, Revisited, 2017).
 struct Frame {
   Vec3 tangent, bitangent, normal;
 };
@@ -47,7 +47,8 @@ inline Frame make_frame(Vec3 n) {
   return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-// A direction with density cos / pi about the frame's normal (Malley's method), from a point of the unit square.
+// A direction with density cos / pi about the frame's normal (Malley's method), from a point of the unit
+// square.
 inline Vec3 make_cosine_direction(const Frame& frame, Vec2 p) {
   const Vec2 disk = square_to_disk(p);
   // Directions within a thousandth of a degree of the plane would only scratch the surface that they leave.

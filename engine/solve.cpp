@@ -1,8 +1,9 @@
 // Joins the kernels: meshes, refinement rounds, passes.
 //
-// B after pass k is the sum over m = 0..k of (rho F)^m E: B starts as E, and every pass adds what the patches receive
-// of the radiosity that the pass before added (Goral, Torrance, Greenberg, Battaile: Modeling the Interaction of Light
-// Between Diffuse Surfaces, 1984; the Neumann series of Kajiya: The Rendering Equation, 1986).
+// B after pass k is the sum over m = 0..k of (rho F)^m E: B starts as E, and every pass adds what the patches
+// receive of the radiosity that the pass before added (Goral, Torrance, Greenberg, Battaile: Modeling the
+// Interaction of Light Between Diffuse Surfaces, 1984; the Neumann series of Kajiya: The Rendering Equation,
+// 1986).
 #include "solve.h"
 
 #include "direct.h"
@@ -54,7 +55,8 @@ float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames) {
 }
 
 // How often a face is halved before the first round.
-uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face, float patch_size) {
+uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face,
+                          float patch_size) {
   const float wanted = faces.patch_size[face] > 0 ? faces.patch_size[face] : patch_size;
   uint32_t level = faces.level_min[face];
   // A hair of slack: an edge of exactly twice the patch size is halved once.
@@ -65,20 +67,23 @@ uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, 
 
 uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& frames, float patch_size) {
   uint64_t count = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
   return count;
 }
 
 struct PatchSizes {
   float start, least;
 };
-PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames, const SolverSettings& settings) {
+PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames,
+                            const SolverSettings& settings) {
   float start = settings.patch_size;
   if (start <= 0) {
     // An automatic size leaves half of the budget to the rounds.
     const float scale = find_scene_scale(faces, frames);
     start = kPatchSize * scale;
-    while (start < scale && count_leaves_at_start(faces, frames, start) > settings.patch_count_max / 2) start *= 1.25f;
+    while (start < scale && count_leaves_at_start(faces, frames, start) > settings.patch_count_max / 2)
+      start *= 1.25f;
   }
   return {start, settings.patch_size_min > 0 ? settings.patch_size_min : kPatchSizeMin * start};
 }
@@ -131,7 +136,8 @@ std::vector<Rgb> find_patch_means(const Solution& s, std::span<const Rgb> column
   return means;
 }
 
-// A column of the patches, as a surface, at the centres of the elements `rows` (a linear surface's mean over them).
+// A column of the patches, as a surface, at the centres of the elements `rows` (a linear surface's mean over
+// them).
 template <typename Write>
 void for_element_values(const Solution& s, std::span<const Rgb> patch_values, std::span<const uint32_t> rows,
                         const Write& write) {
@@ -143,7 +149,8 @@ void for_element_values(const Solution& s, std::span<const Rgb> patch_values, st
       const bool triangle = s.frames.triangle[face];
       const CellFrame cell = make_cell_frame(triangle, s.elements.cell[row], s.elements.level[row]);
       const Vec2 centre = cell.origin + Vec2(cell.size * (triangle ? 1 / 3.0f : 0.5f));
-      write(row, sample_surface(s.patch_vertices, s.patches, s.frames, surface, s.element_patch[row], centre));
+      write(row,
+            sample_surface(s.patch_vertices, s.patches, s.frames, surface, s.element_patch[row], centre));
     }
   });
 }
@@ -156,13 +163,14 @@ std::vector<uint32_t> all_rows(size_t count) {
 
 void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable& faces, const Tracer& tracer,
                     const SolverSettings& settings) {
-  s.direct_ray_count += find_exposed(s.elements, rows, s.element_patch, s.patches, faces, s.frames, tracer,
-                                     settings.seed);
-  s.direct_ray_count += find_direct({s.direct, s.direct_error, s.views}, rows, s.elements, s.element_patch, s.aims,
-                                    faces, s.frames, tracer, settings.rays, settings.seed);
+  s.direct_ray_count +=
+      find_exposed(s.elements, rows, s.element_patch, s.patches, faces, s.frames, tracer, settings.seed);
+  s.direct_ray_count += find_direct({s.direct, s.direct_error, s.views}, rows, s.elements, s.element_patch,
+                                    s.aims, faces, s.frames, tracer, settings.rays, settings.seed);
 }
 
-// All bounces on the patches alone, from the elements' direct light so far: what refinement and exposure go by.
+// All bounces on the patches alone, from the elements' direct light so far: what refinement and exposure go
+// by.
 void find_coarse(Solution& s, const FaceTable& faces) {
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
@@ -204,8 +212,8 @@ void find_mean_radiosity(Solution& s, const FaceTable& faces) {
   s.mean_radiosity = area > 0 ? static_cast<float>(sum / area) : 0;
 }
 
-// Standard errors of the elements' coarse radiosities. A difference between two elements of one patch holds only their
-// share of the surface's slope, and with it of the rows' noise.
+// Standard errors of the elements' coarse radiosities. A difference between two elements of one patch holds
+// only their share of the surface's slope, and with it of the rows' noise.
 std::vector<float> find_errors(const Solution& s, const FaceTable& faces) {
   std::vector<float> error(s.elements.size());
   for_rows(error.size(), 2048, [&](size_t begin, size_t end) {
@@ -245,27 +253,14 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
   find_element_patches(s);
 }
 
-// The mesh is final: corners are shared out, and the counted passes start from B = E.
-void freeze(Solution& s, const FaceTable& faces) {
-  s.views = {};
-  s.fresh = {};
-  s.element_vertices = make_vertices(s.elements, s.frames, s.links);
-  for (size_t row = 0; row < s.elements.size(); ++row)
-    s.elements.radiosity[row] = s.elements.unshot[row] = faces.emission[s.elements.face[row]];
-  for (size_t p = 0; p < s.patches.size(); ++p)
-    s.patches.radiosity[p] = s.patches.unshot[p] = faces.emission[s.patches.face[p]];
-  s.irradiance.assign(s.patches.size(), Rgb(0));
-  s.irradiance_added.assign(s.patches.size(), Rgb(0));
-  s.frozen = true;
-}
-
 // Irradiance at the corners of the elements: their direct light, and the surface of `patch_irradiance`.
 std::vector<Rgb> find_vertex_radiosity(const Solution& s, const FaceTable& faces, const VertexTable& vertices,
                                        std::span<const Rgb> patch_irradiance, bool with_direct) {
   const std::vector<Rgb> indirect =
       reconstruct(s.patch_vertices, s.patches, s.frames, patch_irradiance, kIndirectSurface);
-  std::vector<Rgb> values = with_direct ? reconstruct(vertices, s.elements, s.frames, s.direct, kDirectSurface)
-                                        : std::vector<Rgb>(vertices.size(), Rgb(0));
+  std::vector<Rgb> values = with_direct
+                                ? reconstruct(vertices, s.elements, s.frames, s.direct, kDirectSurface)
+                                : std::vector<Rgb>(vertices.size(), Rgb(0));
   for_rows(vertices.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       const uint32_t row = vertices.vertex_leaf[vertices.vertex_first[v]], face = s.elements.face[row];
@@ -273,8 +268,8 @@ std::vector<Rgb> find_vertex_radiosity(const Solution& s, const FaceTable& faces
       const size_t k = static_cast<size_t>(std::find(corner.begin(), corner.end(), v) - corner.begin());
       const Vec2 uv =
           cell_corner_parameters(s.frames.triangle[face], s.elements.cell[row], s.elements.level[row])[k];
-      const Rgb received =
-          values[v] + sample_surface(s.patch_vertices, s.patches, s.frames, indirect, s.element_patch[row], uv);
+      const Rgb received = values[v] + sample_surface(s.patch_vertices, s.patches, s.frames, indirect,
+                                                      s.element_patch[row], uv);
       values[v] = faces.emission[face] + faces.reflectance[face] * received;
     }
   });
@@ -289,12 +284,14 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   uint64_t ray_count = 0;
   s.frames = make_face_frames(faces);
   s.links = make_face_links(faces);
-  s.patches = make_patches(faces, s.frames, s.links, tracer, settings.patch_count_max / 2, settings.seed, ray_count);
+  s.patches =
+      make_patches(faces, s.frames, s.links, tracer, settings.patch_count_max / 2, settings.seed, ray_count);
   s.seconds.split += watch.read();
   ray_count += cast_rows(s.hits, s.patches, faces, s.frames, tracer, settings.rays, settings.seed);
   s.seconds.trace += watch.read();
   s.patch_vertices = make_vertices(s.patches, s.frames, s.links);
-  s.elements = make_elements(s.patches, faces, s.frames, s.links, find_patch_sizes(faces, s.frames, settings).start);
+  s.elements =
+      make_elements(s.patches, faces, s.frames, s.links, find_patch_sizes(faces, s.frames, settings).start);
   find_element_patches(s);
   s.seconds.split += watch.read();
   s.aims = make_aims(faces, s.frames, s.patches);
@@ -334,12 +331,26 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   s.seconds.trace += watch.read();
   find_coarse_radiosity(s, s.fresh, faces);
   s.seconds.solve += watch.read();
-  s.rounds.push_back({s.rounds.back().round + 1, s.elements.size(), split_count, s.direct_ray_count - rays_before,
-                      whole.read()});
+  s.rounds.push_back({s.rounds.back().round + 1, s.elements.size(), split_count,
+                      s.direct_ray_count - rays_before, whole.read()});
   return true;
 }
 
-const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {
+void freeze(Solution& s, const FaceTable& faces) {
+  s.views = {};
+  s.fresh = {};
+  s.element_vertices = make_vertices(s.elements, s.frames, s.links);
+  for (size_t row = 0; row < s.elements.size(); ++row)
+    s.elements.radiosity[row] = s.elements.unshot[row] = faces.emission[s.elements.face[row]];
+  for (size_t p = 0; p < s.patches.size(); ++p)
+    s.patches.radiosity[p] = s.patches.unshot[p] = faces.emission[s.patches.face[p]];
+  s.irradiance.assign(s.patches.size(), Rgb(0));
+  s.irradiance_added.assign(s.patches.size(), Rgb(0));
+  s.frozen = true;
+}
+
+const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tracer,
+                          const SolverSettings& settings) {
   Stopwatch watch;
   if (!s.frozen) freeze(s, faces);
   PassReport report;
@@ -349,10 +360,9 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
     report.ray_count = s.direct_ray_count;
   } else if (report.pass == 2) {
     const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
-    report.ray_count =
-        gather_elements(s.irradiance_added, s.hits, s.patches, {s.elements, s.element_first}, s.elements.unshot, sources,
-                        faces, s.frames, tracer, settings.seed) +
-        uint64_t{s.hits.ray_count} * s.patches.size();
+    report.ray_count = gather_elements(s.irradiance_added, s.hits, s.patches, {s.elements, s.element_first},
+                                       s.elements.unshot, sources, faces, s.frames, tracer, settings.seed) +
+                       uint64_t{s.hits.ray_count} * s.patches.size();
   } else {
     const std::vector<Rgb> sent = s.patches.unshot;
     gather_patches(s.irradiance_added, {}, s.hits, sent);
@@ -372,7 +382,8 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
     s.patches.radiosity = find_patch_means(s, s.elements.radiosity);
   }
   for (size_t row = 0; row < s.elements.size(); ++row) {
-    report.added_power += double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(s.elements.unshot[row]);
+    report.added_power +=
+        double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(s.elements.unshot[row]);
     report.added_largest = std::max(report.added_largest, largest(s.elements.unshot[row]));
   }
   report.seconds = watch.read();
@@ -416,18 +427,21 @@ uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& se
 }
 
 uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) {
-  // Bytes a row, from tables.h; the largest moment is a split, when the elements exist twice, or the making of the
-  // shared corners. Patches are at most half the budget, and at least one a face.
+  // Bytes a row, from tables.h; the largest moment is a split, when the elements exist twice, or the making
+  // of the shared corners. Patches are at most half the budget, and at least one a face.
   constexpr uint64_t kFaceBytes = 700, kElementBytes = 190, kPatchBytes = 200;
   const uint64_t start = count_starting_patches(faces, settings);
   const uint64_t elements = std::max(start, settings.patch_count_max);
-  const uint64_t patches = std::max<uint64_t>(faces.size(), std::min<uint64_t>(settings.patch_count_max / 2, 20000));
+  const uint64_t patches =
+      std::max<uint64_t>(faces.size(), std::min<uint64_t>(settings.patch_count_max / 2, 20000));
   const uint64_t row_bytes = 8 * uint64_t{make_row_grid(settings.rays).ray_count()};
   return kFaceBytes * faces.size() + kElementBytes * elements + (kPatchBytes + row_bytes) * patches;
 }
 
 uint64_t count_bytes(const Solution& s) {
-  const auto bytes = [](const auto&... column) { return ((column.capacity() * sizeof(column[0])) + ... + 0); };
+  const auto bytes = [](const auto&... column) {
+    return ((column.capacity() * sizeof(column[0])) + ... + 0);
+  };
   const auto patch_bytes = [&](const PatchTable& t) {
     return bytes(t.face, t.cell, t.level, t.area, t.exposed, t.radiosity, t.unshot, t.face_first);
   };
@@ -436,9 +450,9 @@ uint64_t count_bytes(const Solution& s) {
   };
   const FaceFrameTable& f = s.frames;
   return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.element_first, s.element_patch, s.aims.patch_first, s.aims.lamp, s.views.seen,
-               s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct, s.direct_error, s.irradiance,
-               s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
+               s.links.corner, s.element_first, s.element_patch, s.aims.patch_first, s.aims.lamp,
+               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct,
+               s.direct_error, s.irradiance, s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
          vertex_bytes(s.element_vertices);
 }

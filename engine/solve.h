@@ -2,6 +2,7 @@
 //
 //   Solution solution = make_solution(faces, tracer, settings);
 //   while (refine(solution, faces, tracer, settings)) {}           // rounds, until nothing splits
+//   freeze(solution, faces);                                       // the mesh is final; pictures can be taken
 //   while (solution.passes.size() < wanted) advance(solution, faces, tracer, settings);
 //
 // The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints.
@@ -17,9 +18,9 @@
 namespace patchlight {
 
 struct RoundReport {
-  uint32_t round = 0;          // 1 is the starting mesh
-  uint64_t patch_count = 0;    // elements after the round
-  uint64_t split_count = 0;    // elements that it split
+  uint32_t round = 0;        // 1 is the starting mesh
+  uint64_t patch_count = 0;  // elements after the round
+  uint64_t split_count = 0;  // elements that it split
   uint64_t ray_count = 0;
   double seconds = 0;
 };
@@ -27,9 +28,9 @@ struct RoundReport {
 // Powers in W when areas are m2: multiply by (metres a length) squared.
 struct PassReport {
   uint32_t pass = 0;
-  uint64_t ray_count = 0;      // rays that this pass cast, or whose results it used for the first time
-  DRgb added_power{0};         // sum of area times the radiosity that the pass added
-  float added_largest = 0;     // largest radiosity that the pass added to any element, W/m2
+  uint64_t ray_count = 0;   // rays that this pass cast, or whose results it used for the first time
+  DRgb added_power{0};      // sum of area times the radiosity that the pass added
+  float added_largest = 0;  // largest radiosity that the pass added to any element, W/m2
   double seconds = 0;
 };
 
@@ -47,35 +48,39 @@ struct Solution {
   FaceFrameTable frames;
   FaceLinkTable links;
   PatchTable patches, elements;
-  std::vector<uint32_t> element_first;   // CSR: patch -> its elements, patches + 1
-  std::vector<uint32_t> element_patch;   // a row an element
-  VertexTable patch_vertices;            // of the patches; of the elements once the mesh is frozen
+  std::vector<uint32_t> element_first;  // CSR: patch -> its elements, patches + 1
+  std::vector<uint32_t> element_patch;  // a row an element
+  VertexTable patch_vertices;           // of the patches; of the elements once the mesh is frozen
   VertexTable element_vertices;
   AimTable aims;
-  LampViewTable views;                   // a row an element
-  HitTable hits;                         // a row of rays a patch
-  std::vector<Rgb> direct;               // a row an element: irradiance from the lamps aimed at, W/m2
-  std::vector<float> direct_error;       // a row an element: its standard error, W/m2 (luminance)
-  std::vector<Rgb> irradiance;           // a row a patch: all other irradiance of the passes so far, W/m2
-  std::vector<Rgb> irradiance_added;     // a row a patch: what the last pass added to it
-  std::vector<Rgb> coarse;               // a row a patch: irradiance as the coarse solution forecasts it, all bounces
-  std::vector<float> coarse_error;       // a row a patch: its standard error, W/m2 (luminance)
-  float mean_radiosity = 0;              // of the coarse solution, reflected light only, W/m2 (largest channel)
-  std::vector<uint32_t> fresh;           // elements that the last round made
+  LampViewTable views;                // a row an element
+  HitTable hits;                      // a row of rays a patch
+  std::vector<Rgb> direct;            // a row an element: irradiance from the lamps aimed at, W/m2
+  std::vector<float> direct_error;    // a row an element: its standard error, W/m2 (luminance)
+  std::vector<Rgb> irradiance;        // a row a patch: all other irradiance of the passes so far, W/m2
+  std::vector<Rgb> irradiance_added;  // a row a patch: what the last pass added to it
+  std::vector<Rgb> coarse;  // a row a patch: irradiance as the coarse solution forecasts it, all bounces
+  std::vector<float> coarse_error;  // a row a patch: its standard error, W/m2 (luminance)
+  float mean_radiosity = 0;         // of the coarse solution, reflected light only, W/m2 (largest channel)
+  std::vector<uint32_t> fresh;      // elements that the last round made
   uint64_t direct_ray_count = 0;
-  bool frozen = false;                   // the mesh is final; advance() freezes it
+  bool frozen = false;  // the mesh is final
   std::vector<RoundReport> rounds;
   std::vector<PassReport> passes;
   Seconds seconds;
 };
 
-// Starting meshes, the rows of all patches and a coarse solution on them. Faces must be valid (the loader's work).
+// Starting meshes, the rows of all patches and a coarse solution on them. Faces must be valid (the loader's
+// work).
 Solution make_solution(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 
 // One refinement round: splits where neighbours differ; false once nothing splits (then nothing has changed).
 bool refine(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 
-// One pass: adds the next bounce. The first call freezes the mesh and starts from B = E.
+// The mesh is final from here on: shares out the corners of the elements and sets B = E, before pass 1.
+void freeze(Solution& solution, const FaceTable& faces);
+
+// One pass: adds the next bounce; freezes the mesh if that was not done.
 const PassReport& advance(Solution& solution, const FaceTable& faces, const Tracer& tracer,
                           const SolverSettings& settings);
 
@@ -87,7 +92,8 @@ std::vector<Rgb> vertex_radiosity(const Solution& solution, const FaceTable& fac
 // The same as a converged guess before pass 1, from the coarse solution: for choosing an exposure.
 std::vector<Rgb> vertex_radiosity_forecast(const Solution& solution, const FaceTable& faces);
 
-// Irradiance of each element after the passes so far, W/m2: its direct light and the patches' surface at its centre.
+// Irradiance of each element after the passes so far, W/m2: its direct light and the patches' surface at its
+// centre.
 std::vector<Rgb> element_irradiance(const Solution& solution);
 
 // Where the power went, after the passes so far.
@@ -97,7 +103,8 @@ PowerLedger find_power_ledger(const Solution& solution, const FaceTable& faces, 
 // 64-bit hash of all element radiosities: equal runs have equal hashes.
 uint64_t find_solution_hash(const Solution& solution);
 
-// Elements that the settings ask for before any split; may exceed 2^32. For limits, before any memory is taken.
+// Elements that the settings ask for before any split; may exceed 2^32. For limits, before any memory is
+// taken.
 uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings);
 // Bytes that a solve with these settings will hold at its peak, an upper estimate.
 uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings);

@@ -1,9 +1,9 @@
 // The tables of the engine: read this file first.
 //
 // One struct a table, one std::vector a column, all columns of a table equally long, every fact stored once,
-// rows named by index. Lengths are in engine lengths: the loader moves and scales every scene so that the square
-// root of its area is about 1; radiosity does not depend on the scale. Areas are lengths squared. Emission
-// and radiosity are W/m2 (exitance: radiance times pi), reflectance is 0..1, all of them linear RGB.
+// rows named by index. Lengths are in engine lengths: the loader moves and scales every scene so that the
+// square root of its area is about 1; radiosity does not depend on the scale. Areas are lengths squared.
+// Emission and radiosity are W/m2 (exitance: radiance times pi), reflectance is 0..1, all of them linear RGB.
 #pragma once
 
 #include "vector.h"
@@ -14,28 +14,29 @@
 
 namespace patchlight {
 
-// The scene, fixed: planar triangles and convex quads. A face is lit on one side only: the side from which its
-// corners run counter-clockwise. What reaches its back is absorbed.
+// The scene, fixed: planar triangles and convex quads. A face is lit on one side only: the side from which
+// its corners run counter-clockwise. What reaches its back is absorbed.
 struct FaceTable {
-  std::vector<std::array<Vec3, 4>> corners;  // lengths; a triangle repeats its third corner in the fourth place
-  std::vector<uint8_t> corner_count;         // 3 or 4
-  std::vector<Vec3> normal;                  // unit, towards the lit side
-  std::vector<Rgb> emission;                 // W/m2, >= 0
-  std::vector<Rgb> reflectance;              // 0..1
-  std::vector<uint32_t> polygon;             // the scene's polygon that this face was cut from
-  std::vector<uint32_t> twin;                // the face back to back with this one (two-sided), or kNone
-  std::vector<float> patch_size;             // longest edge of a starting patch on it; 0: as the settings say
-  std::vector<uint8_t> level_min;            // it starts at least this often halved
+  std::vector<std::array<Vec3, 4>>
+      corners;                        // lengths; a triangle repeats its third corner in the fourth place
+  std::vector<uint8_t> corner_count;  // 3 or 4
+  std::vector<Vec3> normal;           // unit, towards the lit side
+  std::vector<Rgb> emission;          // W/m2, >= 0
+  std::vector<Rgb> reflectance;       // 0..1
+  std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from
+  std::vector<uint32_t> twin;         // the face back to back with this one (two-sided), or kNone
+  std::vector<float> patch_size;      // longest edge of a starting patch on it; 0: as the settings say
+  std::vector<uint8_t> level_min;     // it starts at least this often halved
   size_t size() const { return normal.size(); }
 };
 
 // What is derived from a face for speed: maps from a point on it to its parameters (see cell.h).
 struct FaceFrameTable {
-  std::vector<Vec3> origin;       // the first corner
-  std::vector<Vec3> edge_u;       // corner 1 - corner 0
-  std::vector<Vec3> edge_v;       // last corner - corner 0
-  std::vector<Vec3> twist;        // corner 2 - corner 1 - corner 3 + corner 0: zero for a parallelogram or triangle
-  std::vector<Vec3> dual_u;       // dot(p - origin, dual_u) = u where twist is zero
+  std::vector<Vec3> origin;  // the first corner
+  std::vector<Vec3> edge_u;  // corner 1 - corner 0
+  std::vector<Vec3> edge_v;  // last corner - corner 0
+  std::vector<Vec3> twist;  // corner 2 - corner 1 - corner 3 + corner 0: zero for a parallelogram or triangle
+  std::vector<Vec3> dual_u;  // dot(p - origin, dual_u) = u where twist is zero
   std::vector<Vec3> dual_v;
   std::vector<uint8_t> triangle;  // 1: triangle
   std::vector<uint8_t> affine;    // 1: twist is zero
@@ -48,14 +49,14 @@ struct FaceLinkTable {
     uint32_t face = kNone;  // the face on the other side, or kNone at the polygon's border
     uint8_t edge = 0;       // its edge; it runs the other way
   };
-  std::vector<std::array<Edge, 4>> edge;          // edge k runs from corner k to the next one
-  std::vector<std::array<uint32_t, 4>> corner;    // 4 * face + corner of the first face that has this corner
+  std::vector<std::array<Edge, 4>> edge;        // edge k runs from corner k to the next one
+  std::vector<std::array<uint32_t, 4>> corner;  // 4 * face + corner of the first face that has this corner
   size_t size() const { return edge.size(); }
 };
 
-// Leaves of one quadtree per face, sorted by (face, cell): memory order is spatial order and a face owns the row
-// range [face_first[f], face_first[f + 1]). Two of these exist: fine elements that carry direct light and the
-// picture, and coarser patches that carry the light between surfaces (Cohen, Greenberg, Immel, Brock: An
+// Leaves of one quadtree per face, sorted by (face, cell): memory order is spatial order and a face owns the
+// row range [face_first[f], face_first[f + 1]). Two of these exist: fine elements that carry direct light and
+// the picture, and coarser patches that carry the light between surfaces (Cohen, Greenberg, Immel, Brock: An
 // Efficient Radiosity Approach for Realistic Image Synthesis, 1986). Every patch is a union of elements.
 struct PatchTable {
   std::vector<uint32_t> face;
@@ -69,11 +70,11 @@ struct PatchTable {
   size_t size() const { return face.size(); }
 };
 
-// Corners of leaves, shared between neighbours. A corner in the middle of a coarser neighbour's edge (hanging) is
-// held to the mean of that edge's ends, so that the surface of values has no cracks.
+// Corners of leaves, shared between neighbours. A corner in the middle of a coarser neighbour's edge
+// (hanging) is held to the mean of that edge's ends, so that the surface of values has no cracks.
 struct VertexTable {
-  std::vector<std::array<uint32_t, 4>> leaf_vertex;      // a row a leaf; a triangle repeats its third
-  std::vector<uint32_t> vertex_first;                    // CSR: vertex -> its leaves
+  std::vector<std::array<uint32_t, 4>> leaf_vertex;  // a row a leaf; a triangle repeats its third
+  std::vector<uint32_t> vertex_first;                // CSR: vertex -> its leaves
   std::vector<uint32_t> vertex_leaf;
   std::vector<std::array<uint32_t, 2>> hanging_between;  // a row a vertex; kNone, kNone: not hanging
   std::vector<uint32_t> hanging_order;                   // hanging vertices, coarse ones first
@@ -88,7 +89,8 @@ struct AimTable {
 };
 constexpr size_t kAimedLampsMax = 64;  // as many as fit a 64-bit mask
 
-// What is known of each element's view of the lamps that its patch aims at. Bit k: lamp k of the patch's list.
+// What is known of each element's view of the lamps that its patch aims at. Bit k: lamp k of the patch's
+// list.
 struct LampViewTable {
   std::vector<uint64_t> seen;     // every ray so far reached the lamp
   std::vector<uint64_t> hidden;   // no ray so far reached the lamp; neither bit: some did
@@ -96,14 +98,15 @@ struct LampViewTable {
   size_t size() const { return seen.size(); }
 };
 
-// Where the row rays of each patch ended: a row of ray_count entries a patch, fixed geometry, kept for all passes.
+// Where the row rays of each patch ended: a row of ray_count entries a patch, fixed geometry, kept for all
+// passes.
 struct HitTable {
   std::vector<uint32_t> patch;  // the patch hit, or kHitNothing, or kHitBack
   std::vector<uint32_t> cell;   // where on the patch's face: a cell of level kLevelMax
   uint32_t ray_count = 0;       // rays a row
 };
-constexpr uint32_t kHitNothing = ~uint32_t{0};  // the ray left the scene
-constexpr uint32_t kHitBack = kHitNothing - 1;  // it met a back side
+constexpr uint32_t kHitNothing = ~uint32_t{0};    // the ray left the scene
+constexpr uint32_t kHitBack = kHitNothing - 1;    // it met a back side
 constexpr uint32_t kHitBuried = kHitNothing - 2;  // it started inside a solid: no ray at all
 
 // Bright places that a pass aims at: nodes of the element trees.
@@ -113,7 +116,7 @@ struct SourceTable {
   std::vector<uint32_t> cell;
   std::vector<uint8_t> level;
   std::vector<Vec3> centre, normal;
-  std::vector<float> area;  // lengths squared
+  std::vector<float> area;   // lengths squared
   std::vector<float> share;  // of all the unshot power (luminance)
   size_t size() const { return face.size(); }
 };

@@ -60,15 +60,16 @@ bool is_traced(const FaceTable& faces, size_t f) { return faces.twin[f] == kNone
 void add_geometry(TracerState& state, const FaceTable& faces, RTCGeometryType type, uint32_t corner_count) {
   auto& face_of = state.face_of[corner_count == 4 ? 1 : 0];
   for (size_t f = 0; f < faces.size(); ++f)
-    if (faces.corner_count[f] == corner_count && is_traced(faces, f)) face_of.push_back(static_cast<uint32_t>(f));
+    if (faces.corner_count[f] == corner_count && is_traced(faces, f))
+      face_of.push_back(static_cast<uint32_t>(f));
   RTCGeometry geometry = rtcNewGeometry(state.device, type);
   if (!face_of.empty()) {
-    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float), face_of.size() * corner_count));
-    auto* index = static_cast<uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                corner_count == 4 ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
-                                corner_count * sizeof(uint32_t), face_of.size()));
+    auto* vertex =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    3 * sizeof(float), face_of.size() * corner_count));
+    auto* index = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, corner_count == 4 ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
+        corner_count * sizeof(uint32_t), face_of.size()));
     if (!vertex || !index) throw std::bad_alloc{};
     for (size_t k = 0; k < face_of.size() * corner_count; ++k) {
       const Vec3 p = faces.corners[face_of[k / corner_count]][k % corner_count];

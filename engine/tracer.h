@@ -16,7 +16,8 @@ struct alignas(64) RayPacket {
   float near_distance[16];                         // in units of the direction's length
   float direction_x[16], direction_y[16], direction_z[16];
   float time[16];
-  float far_distance[16];  // where the ray ends; after a hit, where it hit; after find_blocked, -inf if blocked
+  float
+      far_distance[16];  // where the ray ends; after a hit, where it hit; after find_blocked, -inf if blocked
   uint32_t mask[16], id[16], flags[16];
 };
 
@@ -34,7 +35,8 @@ struct Tracer {
   std::unique_ptr<TracerState, void (*)(TracerState*)> state;
 };
 
-// Builds Embree's scene of all faces; from then on it never changes. Throws std::runtime_error with Embree's words.
+// Builds Embree's scene of all faces; from then on it never changes. Throws std::runtime_error with Embree's
+// words.
 Tracer make_tracer(const FaceTable& faces);
 
 // Nearest hit of the rays of `active` (bit k: ray k). Rays must be finite.

@@ -17,8 +17,8 @@ using Vec2 = glm::vec2;
 using Vec3 = glm::vec3;
 using DVec2 = glm::dvec2;
 using DVec3 = glm::dvec3;
-using Rgb = glm::vec3;     // linear red, green, blue
-using DRgb = glm::dvec3;   // the same where many are added up
+using Rgb = glm::vec3;    // linear red, green, blue
+using DRgb = glm::dvec3;  // the same where many are added up
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr uint32_t kNone = ~uint32_t{0};

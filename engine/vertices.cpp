@@ -1,7 +1,8 @@
 // Leaves to shared corners, leaf values to corner values.
 //
-// Corners in the middle of a coarser neighbour's edge are constrained to it (Baum, Mann, Smith, Winget: Making
-// Radiosity Usable, 1991). Means kept by repeated correction: van Cittert's iteration, limited to the range around.
+// Corners in the middle of a coarser neighbour's edge are constrained to it (Baum, Mann, Smith, Winget:
+// Making Radiosity Usable, 1991). Means kept by repeated correction: van Cittert's iteration, limited to the
+// range around.
 #include "vertices.h"
 
 #include "parallel.h"
@@ -32,16 +33,23 @@ GridPoint find_first_name(GridPoint p, const FaceFrameTable& frames, const FaceL
     if (p.x == 0 && p.y == 0) return corner_point(links.corner[p.face][0]);
     if (p.x == kGrid) return corner_point(links.corner[p.face][1]);
     if (p.y == kGrid) return corner_point(links.corner[p.face][2]);
-    if (p.y == 0) edge = 0, along = p.x;
-    else if (p.x + p.y == kGrid) edge = 1, along = p.y;
-    else if (p.x == 0) edge = 2, along = kGrid - p.y;
+    if (p.y == 0)
+      edge = 0, along = p.x;
+    else if (p.x + p.y == kGrid)
+      edge = 1, along = p.y;
+    else if (p.x == 0)
+      edge = 2, along = kGrid - p.y;
   } else {
     if ((p.x == 0 || p.x == kGrid) && (p.y == 0 || p.y == kGrid))
       return corner_point(links.corner[p.face][p.y == 0 ? (p.x == 0 ? 0 : 1) : (p.x == 0 ? 3 : 2)]);
-    if (p.y == 0) edge = 0, along = p.x;
-    else if (p.x == kGrid) edge = 1, along = p.y;
-    else if (p.y == kGrid) edge = 2, along = kGrid - p.x;
-    else if (p.x == 0) edge = 3, along = kGrid - p.y;
+    if (p.y == 0)
+      edge = 0, along = p.x;
+    else if (p.x == kGrid)
+      edge = 1, along = p.y;
+    else if (p.y == kGrid)
+      edge = 2, along = kGrid - p.x;
+    else if (p.x == 0)
+      edge = 3, along = kGrid - p.y;
   }
   if (edge == kNone) return p;
   const FaceLinkTable::Edge link = links.edge[p.face][edge];
@@ -73,7 +81,8 @@ Rgb mean_of_corners(const std::array<uint32_t, 4>& corner, bool triangle, std::s
 
 }  // namespace
 
-VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links) {
+VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames,
+                          const FaceLinkTable& links) {
   VertexTable table;
   table.leaf_vertex.resize(leaves.size());
   std::vector<uint64_t> keys(leaves.size() * 4);
@@ -141,8 +150,9 @@ VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames
   return table;
 }
 
-std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves, const FaceFrameTable& frames,
-                             std::span<const Rgb> leaf_values, const ReconstructSettings& settings) {
+std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves,
+                             const FaceFrameTable& frames, std::span<const Rgb> leaf_values,
+                             const ReconstructSettings& settings) {
   assert(leaf_values.size() == leaves.size());
   std::vector<Rgb> values(vertices.size(), Rgb(0)), low(vertices.size()), high(vertices.size());
   const auto leaf_weight = [&](uint32_t leaf) { return leaves.exposed[leaf] * leaves.exposed[leaf]; };

@@ -1,4 +1,5 @@
-// From one value a leaf to a surface of values without cracks: values at shared corners, bilinear between them.
+// From one value a leaf to a surface of values without cracks: values at shared corners, bilinear between
+// them.
 #pragma once
 
 #include "quadtree.h"
@@ -8,17 +9,18 @@ namespace patchlight {
 VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames, const FaceLinkTable& links);
 
 struct ReconstructSettings {
-  // Steps that bring the mean of the surface over each leaf back to the leaf's value: 0 is the plain mean of the leaves
-  // around a corner, which blurs; more follow edges more closely and keep more noise.
+  // Steps that bring the mean of the surface over each leaf back to the leaf's value: 0 is the plain mean of
+  // the leaves around a corner, which blurs; more follow edges more closely and keep more noise.
   uint32_t sharpen_steps = 0;
   // The same for corners on the border of a polygon, where plain means would flatten the slope.
   uint32_t border_steps = 2;
 };
 
-// Values at vertices from values of leaves, both W/m2. Leaves count by the square of their exposed share. Values stay
-// within the range of the leaves around an inner vertex, and >= 0 everywhere.
-std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves, const FaceFrameTable& frames,
-                             std::span<const Rgb> leaf_values, const ReconstructSettings& settings);
+// Values at vertices from values of leaves, both W/m2. Leaves count by the square of their exposed share.
+// Values stay within the range of the leaves around an inner vertex, and >= 0 everywhere.
+std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves,
+                             const FaceFrameTable& frames, std::span<const Rgb> leaf_values,
+                             const ReconstructSettings& settings);
 
 // The surface's value at (u, v) of the face of leaf `row`, which must hold that point.
 inline Rgb sample_surface(const VertexTable& vertices, const PatchTable& leaves, const FaceFrameTable& frames,
