@@ -10,7 +10,8 @@ namespace patchlight {
 
 enum class Severity { kWarning, kError };
 
-// One message. line and column are 1-based; 0 means that the message has no place (a flag, a file that is not there).
+// One message. line and column are 1-based; 0 means that the message has no place (a flag, a file that is not
+// there).
 struct Diagnostic {
   Severity severity = Severity::kError;
   std::string file;
@@ -19,10 +20,11 @@ struct Diagnostic {
   std::string slug;         // stable name, e.g. unknown-material; the table of slugs is in diagnostics.cpp
   std::string message;      // what was found, what was expected; text from files already escaped
   std::string source_line;  // the line of the file, escaped and cut, for the caret; empty: not known
+  int caret = 0;            // 1-based place of the caret under source_line; 0: under `column`
 };
 
-// Thrown for everything that the user can mend. `diagnostics` holds at least one error, all that were found in
-// one go, in the order of the file; `more` counts those that were found beyond the limit and dropped.
+// Thrown for everything that the user can mend. `diagnostics` holds at least one error, all that were found
+// in one go, in the order of the file; `more` counts those that were found beyond the limit and dropped.
 struct UserError : std::exception {
   std::vector<Diagnostic> diagnostics;
   size_t more = 0;
@@ -38,8 +40,8 @@ int exit_code(std::string_view slug);
 // FILE:LINE:COL: error[slug]: message, then the source line and a caret. One text, newline at the end.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-// Text from a file or the command line made safe to print: control characters, bidirectional overrides and bytes
-// that are not UTF-8 become \xNN or \u{NNNN}; longer than `limit` characters is cut with an ellipsis.
+// Text from a file or the command line made safe to print: control characters, bidirectional overrides and
+// bytes that are not UTF-8 become \xNN or \u{NNNN}; longer than `limit` characters is cut with an ellipsis.
 std::string escape_text(std::string_view text, size_t limit = 60);
 
 // The best of `known` for a mistyped `word`, or an empty string when none is near.

@@ -14,33 +14,33 @@ namespace patchlight {
 // One row a polygon of the scene, in the order of the file; a two-sided polygon has a second row, `ID.back`.
 struct PolygonTable {
   std::vector<std::string> id;
-  std::vector<uint32_t> line;         // 1-based place in the file
-  std::vector<uint32_t> face_first;   // polygons + 1: its faces are face_first[p] .. face_first[p + 1]
+  std::vector<uint32_t> line;        // 1-based place in the file
+  std::vector<uint32_t> face_first;  // polygons + 1: its faces are face_first[p] .. face_first[p + 1]
   size_t size() const { return id.size(); }
 };
 
 struct Camera {
-  std::string name;               // empty for the single or the automatic camera
-  DVec3 eye, target, up;          // engine lengths
-  double fov_degrees = 60;        // vertical
+  std::string name;         // empty for the single or the automatic camera
+  DVec3 eye, target, up;    // engine lengths
+  double fov_degrees = 60;  // vertical
   uint32_t width = 960, height = 720;
 };
 
 enum class Shading { kSmooth, kFlat };
 
 struct OutputSettings {
-  std::string basename;                   // empty: the scene file's name without .yaml
-  std::vector<uint32_t> snapshots;        // ascending, no repeats; empty: the default 1, 2, 16
-  std::optional<double> exposure_ev;      // none: automatic
+  std::string basename;               // empty: the scene file's name without .yaml
+  std::vector<uint32_t> snapshots;    // ascending, no repeats; empty: the default 1, 2, 16
+  std::optional<double> exposure_ev;  // none: automatic
   Shading shading = Shading::kSmooth;
 };
 
 struct Scene {
-  std::string file;                // as the user named it; <stdin> for -
+  std::string file;  // as the user named it; <stdin> for -
   std::string title;
   FaceTable faces;
   PolygonTable polygons;
-  std::vector<Camera> cameras;     // never empty: the automatic one where the file names none
+  std::vector<Camera> cameras;  // never empty: the automatic one where the file names none
   SolverSettings solver;
   OutputSettings output;
   std::string units = "m";

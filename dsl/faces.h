@@ -1,0 +1,20 @@
+// Checked and cut polygons to the engine's table of faces.
+#pragma once
+
+#include "materials.h"
+#include "outlines.h"
+#include "scene.h"
+
+namespace patchlight {
+
+// Checks, cuts and converts all polygons: fills scene.faces, scene.polygons, scene.origin and
+// scene.units_per_length. Errors: those of flatten_polygon and too-many-patches; warnings: those of
+// flatten_polygon, coincident, scale-ratio. Writes nothing useful when errors were reported.
+void make_faces(Messages& messages, const Tree& tree, const MaterialTable& materials,
+                const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
+                Scene& scene);
+
+// Warns of polygons that have the very same corners as an earlier one, in any order.
+void warn_of_coincident(Messages& messages, const Tree& tree, const OutlineTable& outlines);
+
+}  // namespace patchlight

@@ -1,0 +1,280 @@
+// An outline checked and laid flat. All tolerances are shares of the polygon's own size.
+#include "flat_polygon.h"
+
+#include "limits.h"
+#include "ring_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchlight {
+namespace {
+
+constexpr double kRepeated = 1e-9;  // corners nearer than this are one, in units of the polygon's size
+constexpr double kAreaMin = 1e-10;  // in units of size squared
+constexpr size_t kBlameMax = 64;    // rings with more corners are not searched for the one to blame
+
+std::string corner_text(DVec3 p) { return fmt::format("[{:g}, {:g}, {:g}]", p.x, p.y, p.z); }
+
+// The place of a corner in the file, where the ring is a list of corners; else of what stands for the ring.
+Place corner_place(const Tree& tree, const OutlineTable& outlines, uint32_t ring, uint32_t corner) {
+  const uint32_t node = outlines.ring_node[ring];
+  const uint32_t count = outlines.ring_first[ring + 1] - outlines.ring_first[ring];
+  const bool listed = tree.nodes[node].kind == NodeKind::kList && tree.nodes[node].count == count;
+  return place_of(tree, listed ? child_of(tree, node, corner) : node);
+}
+
+// Copies a ring without corners that repeat the one before, and without a last that repeats the first.
+void copy_ring(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t ring, double near,
+               FlatPolygon& polygon, std::vector<uint32_t>& kept) {
+  const uint32_t begin = outlines.ring_first[ring], end = outlines.ring_first[ring + 1];
+  const size_t first = polygon.points.size();
+  const auto same = [&](DVec3 a, DVec3 b) { return glm::length(a - b) <= near; };
+  for (uint32_t k = begin; k < end; ++k) {
+    const DVec3 point = outlines.corners[k];
+    if (polygon.points.size() > first && same(point, polygon.points.back())) {
+      add_warning(messages, corner_place(tree, outlines, ring, k - begin), "repeated-vertex",
+                  fmt::format("corner {} of {} repeats the one before; dropped", k - begin + 1, end - begin));
+      continue;
+    }
+    polygon.points.push_back(point);
+    kept.push_back(k - begin);
+  }
+  if (polygon.points.size() > first + 1 && same(polygon.points.back(), polygon.points[first])) {
+    add_warning(messages, corner_place(tree, outlines, ring, end - begin - 1), "closed-ring",
+                "the last corner repeats the first; dropped, rings close by themselves");
+    polygon.points.pop_back();
+    kept.pop_back();
+  }
+  polygon.ring_first.push_back(static_cast<uint32_t>(polygon.points.size()));
+}
+
+// Newell's normal, its length twice the area, of the points from first to last relative to `origin`, in units
+// of size.
+DVec3 newell(const std::vector<DVec3>& points, size_t first, size_t last, DVec3 origin, double size,
+             size_t skip = ~size_t{0}) {
+  DVec3 sum(0);
+  size_t before = last - 1 == skip ? last - 2 : last - 1;
+  for (size_t k = first; k < last; ++k) {
+    if (k == skip) continue;
+    sum += glm::cross((points[before] - origin) / size, (points[k] - origin) / size);
+    before = k;
+  }
+  return sum;
+}
+
+// The corner of the outline whose absence leaves the flattest rest; among equals the one farthest from that
+// rest.
+size_t corner_to_blame(const FlatPolygon& polygon) {
+  const size_t count = polygon.ring_first[1];
+  size_t worst = 0;
+  double worst_rest = 1e300, worst_distance = 0;
+  for (size_t k = 0; k < count; ++k) {
+    if (count > kBlameMax) {
+      const double distance = std::abs(glm::dot(polygon.points[k] - polygon.origin, polygon.normal));
+      if (distance > worst_distance) worst = k, worst_distance = distance;
+      continue;
+    }
+    const DVec3 normal_sum = newell(polygon.points, 0, count, polygon.origin, polygon.size, k);
+    if (glm::length(normal_sum) < kAreaMin) continue;
+    const DVec3 normal = glm::normalize(normal_sum);
+    DVec3 middle(0);
+    for (size_t j = 0; j < count; ++j)
+      if (j != k) middle += (polygon.points[j] - polygon.origin) / static_cast<double>(count - 1);
+    double rest = 0;
+    for (size_t j = 0; j < count; ++j)
+      if (j != k)
+        rest = std::max(rest, std::abs(glm::dot(polygon.points[j] - polygon.origin - middle, normal)));
+    const double distance = std::abs(glm::dot(polygon.points[k] - polygon.origin - middle, normal));
+    const double tie = 1e-9 * polygon.size;
+    if (rest < worst_rest - tie || (rest < worst_rest + tie && distance > worst_distance)) {
+      worst = k;
+      worst_rest = rest;
+      worst_distance = distance;
+    }
+  }
+  return worst;
+}
+
+// The plane of the outline, and all points on it. False when the outline has no area.
+bool lay_flat(FlatPolygon& polygon) {
+  const size_t outline_count = polygon.ring_first[1];
+  const DVec3 normal_sum = newell(polygon.points, 0, outline_count, polygon.points[0], polygon.size);
+  if (glm::length(normal_sum) / 2 < kAreaMin) return false;
+  polygon.normal = glm::normalize(normal_sum);
+  DVec3 middle(0);
+  for (size_t k = 0; k < outline_count; ++k)
+    middle += (polygon.points[k] - polygon.points[0]) / static_cast<double>(outline_count);
+  polygon.origin = polygon.points[0] + middle;
+  // The plane's axes follow the longest edge, so that rectangles lie straight.
+  double longest = 0;
+  DVec3 along(0);
+  for (size_t k = 0; k < outline_count; ++k) {
+    const DVec3 edge = (polygon.points[(k + 1) % outline_count] - polygon.points[k]) / polygon.size;
+    const DVec3 in_plane = edge - polygon.normal * glm::dot(edge, polygon.normal);
+    if (glm::length(in_plane) > longest * (1 + 1e-9)) longest = glm::length(in_plane), along = in_plane;
+  }
+  polygon.axis_u = glm::normalize(along);
+  polygon.axis_v = glm::cross(polygon.normal, polygon.axis_u);
+  polygon.off_plane = 0;
+  polygon.flat.clear();
+  for (const DVec3& point : polygon.points) {
+    const DVec3 offset = (point - polygon.origin) / polygon.size;
+    polygon.flat.emplace_back(glm::dot(offset, polygon.axis_u), glm::dot(offset, polygon.axis_v));
+    polygon.off_plane = std::max(polygon.off_plane, std::abs(glm::dot(offset, polygon.normal)));
+  }
+  return true;
+}
+
+// True when all corners of the outline lie on one line.
+bool is_on_line(const FlatPolygon& polygon) {
+  const DVec3 first = polygon.points[0];
+  DVec3 far(0);
+  for (const DVec3& point : polygon.points)
+    if (glm::length(point - first) > glm::length(far)) far = point - first;
+  const DVec3 along = glm::normalize(far / polygon.size);
+  for (const DVec3& point : polygon.points)
+    if (glm::length(glm::cross((point - first) / polygon.size, along)) > kAreaMin) return false;
+  return true;
+}
+
+// The ring of the corner that is farthest off the plane.
+uint32_t ring_off_plane(const FlatPolygon& polygon) {
+  uint32_t worst_ring = 0;
+  double worst = 0;
+  for (uint32_t ring = 0; ring < polygon.ring_count(); ++ring)
+    for (uint32_t k = polygon.ring_first[ring]; k < polygon.ring_first[ring + 1]; ++k) {
+      const double distance =
+          std::abs(glm::dot((polygon.points[k] - polygon.origin) / polygon.size, polygon.normal));
+      if (distance > worst) worst = distance, worst_ring = ring;
+    }
+  return worst_ring;
+}
+
+// Turns holes clockwise, and sums area and centroid over all rings.
+void orient_and_measure(FlatPolygon& polygon) {
+  polygon.area = 0;
+  DVec2 moment(0);
+  for (size_t ring = 0; ring < polygon.ring_count(); ++ring) {
+    const uint32_t first = polygon.ring_first[ring], last = polygon.ring_first[ring + 1];
+    const DVec2 base = polygon.flat[first];
+    double twice = 0;
+    DVec2 ring_moment(0);
+    for (uint32_t k = first + 1; k + 1 < last; ++k) {
+      const double piece = turn(base, polygon.flat[k], polygon.flat[k + 1]);
+      twice += piece;
+      ring_moment += (base + polygon.flat[k] + polygon.flat[k + 1]) * (piece / 6);
+    }
+    const bool reverse = ring > 0 && twice > 0;
+    if (reverse) {
+      std::reverse(polygon.points.begin() + first, polygon.points.begin() + last);
+      std::reverse(polygon.flat.begin() + first, polygon.flat.begin() + last);
+    }
+    polygon.area += (reverse ? -1 : 1) * twice / 2;
+    moment += ring_moment * (reverse ? -1.0 : 1.0);
+  }
+  polygon.centroid = moment / polygon.area;
+}
+
+struct FaultText {
+  std::string_view slug, text;
+};
+FaultText fault_text(RingFault fault) {
+  switch (fault) {
+    case RingFault::kHoleOutside:
+      return {"hole-outside", "the hole reaches outside of the polygon"};
+    case RingFault::kHoleTouches:
+      return {"hole-touches", "the hole touches the polygon's edge; make the outline go round it instead"};
+    case RingFault::kHolesOverlap:
+      return {"holes-overlap", "two holes touch or overlap; make them one"};
+    default:
+      return {"self-intersecting", "the polygon's outline crosses or touches itself"};
+  }
+}
+
+}  // namespace
+
+bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
+                     FlatPolygon& polygon) {
+  const uint32_t ring_begin = outlines.polygon_first[p], ring_end = outlines.polygon_first[p + 1];
+  const auto report = [&](Place place, std::string_view slug, std::string message) {
+    add_error(messages, place, slug, fmt::format("'{}': {}", escape_text(outlines.id[p]), message));
+    return false;
+  };
+  DVec3 low(outlines.corners[outlines.ring_first[ring_begin]]), high = low;
+  for (uint32_t ring = ring_begin; ring < ring_end; ++ring)
+    for (uint32_t k = outlines.ring_first[ring]; k < outlines.ring_first[ring + 1]; ++k) {
+      const DVec3 point = outlines.corners[k];
+      if (!(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= kCoordinateMax))
+        return report(corner_place(tree, outlines, ring, k - outlines.ring_first[ring]),
+                      "coordinate-too-large",
+                      fmt::format("{} is beyond the limit of {:g}", corner_text(point), kCoordinateMax));
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
+  const Place place = place_of(tree, outlines.ring_node[ring_begin]);
+  polygon.points.clear();
+  polygon.ring_first.assign(1, 0);
+  const double largest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  if (!(largest_side > 0))
+    return report(place, "zero-area", "all corners are the same point: the polygon has no area");
+  polygon.size = glm::length((high - low) / largest_side) * largest_side;
+  std::vector<uint32_t> kept;  // a point's number in its ring
+  for (uint32_t ring = ring_begin; ring < ring_end; ++ring) {
+    copy_ring(messages, tree, outlines, ring, kRepeated * polygon.size, polygon, kept);
+    const size_t rings = polygon.ring_count();
+    if (polygon.ring_first[rings] - polygon.ring_first[rings - 1] < 3)
+      return report(place_of(tree, outlines.ring_node[ring]), "zero-area",
+                    fmt::format("fewer than 3 different corners: the {} has no area",
+                                ring > ring_begin ? "hole" : "polygon"));
+  }
+  if (!lay_flat(polygon)) {
+    // A bow tie has no area by sum, but its corners do not lie on a line.
+    if (!is_on_line(polygon))
+      return report(place, "self-intersecting", "the polygon's outline crosses itself");
+    return report(place, "zero-area", "the polygon has no area: its corners lie on a line");
+  }
+  if (polygon.off_plane > kNonPlanarMax) {
+    if (const uint32_t ring = ring_off_plane(polygon); ring > 0)
+      return report(
+          place_of(tree, outlines.ring_node[ring_begin + ring]), "non-planar",
+          fmt::format("the hole lies off the polygon's plane by {:.2g} % of its size, the limit is 2 %",
+                      polygon.off_plane * 100));
+    const size_t worst = corner_to_blame(polygon);
+    return report(
+        corner_place(tree, outlines, ring_begin, kept[worst]), "non-planar",
+        fmt::format("corner {} of {}, {}, is too far off the plane of the others: corners lie up to {:.2g} % "
+                    "of the polygon's size off one plane, the limit is 2 %",
+                    kept[worst] + 1, outlines.ring_first[ring_begin + 1] - outlines.ring_first[ring_begin],
+                    corner_text(polygon.points[worst]), polygon.off_plane * 100));
+  }
+  const bool simple_quad = polygon.ring_count() == 1 && polygon.points.size() <= 4;
+  orient_and_measure(polygon);
+  bool convex = simple_quad;
+  for (size_t k = 0; k < polygon.flat.size() && convex; ++k) {
+    const size_t count = polygon.flat.size();
+    convex = turn(polygon.flat[k], polygon.flat[(k + 1) % count], polygon.flat[(k + 2) % count]) > 0;
+  }
+  if (!convex) {
+    const RingCheck check = check_rings(polygon);
+    if (check.fault != RingFault::kNoFault) {
+      const FaultText text = fault_text(check.fault);
+      const Place where = check.ring == 0 ? corner_place(tree, outlines, ring_begin, kept[check.corner])
+                                          : place_of(tree, outlines.ring_node[ring_begin + check.ring]);
+      return report(where, text.slug,
+                    fmt::format("{}, near {}", text.text, corner_text(polygon.points[check.corner])));
+    }
+  }
+  if (!(polygon.area > kAreaMin)) return report(place, "zero-area", "the polygon has no area");
+  if (polygon.off_plane > kFlatMax)
+    add_warning(
+        messages, place, "non-planar",
+        fmt::format(
+            "'{}': corners lie up to {:.2g} % of the polygon's size off one plane; cut into triangles",
+            escape_text(outlines.id[p]), polygon.off_plane * 100));
+  return true;
+}
+
+}  // namespace patchlight

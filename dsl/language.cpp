@@ -1,0 +1,121 @@
+// The language's tables. A new key is one row here and one line where it is used.
+#include "language.h"
+
+#include "limits.h"
+#include "shapes.h"
+
+#include <vector>
+
+namespace patchlight {
+namespace {
+
+using enum ValueType;
+
+constexpr KeyRow kSceneRows[] = {
+    {"patchlight", kInteger, false, "", 1, 1e9, "out-of-range", "", "Version of the language: 1. Required."},
+    {"title", kText, false, "", 0, 0, "", "", "What the scene is called."},
+    {"units", kChoice, false, "m", 0, 0, "bad-unit", "m|cm|mm|ft|in", "Unit of all lengths in the file."},
+    {"materials", kMap, false, "", 0, 0, "", "", "Materials by name."},
+    {"objects", kList, false, "", 0, 0, "", "", "The things in the scene. Required."},
+    {"camera", kMap, false, "", 0, 0, "", "", "The camera, where one is enough."},
+    {"cameras", kList, false, "", 0, 0, "", "", "Several cameras, each with a name."},
+    {"solver", kMap, false, "", 0, 0, "", "", "How the light is computed."},
+    {"output", kMap, false, "", 0, 0, "", "", "What the pictures look like."},
+};
+
+constexpr KeyRow kMaterialRows[] = {
+    {"reflectance", kRgb, false, "0", 0, 1, "reflectance-range", "",
+     "Share of light that is reflected, 0..1."},
+    {"emission", kRgb, false, "0", 0, kEmissionMax, "emission-range", "",
+     "Light given off: exitance in W/m2, which is radiance times pi."},
+};
+
+constexpr KeyRow kCameraRows[] = {
+    {"name", kName, false, "", 0, 0, "bad-name", "", "Name, part of the picture's file name."},
+    {"eye", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
+     "Where the camera stands."},
+    {"target", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
+     "What it looks at."},
+    {"up", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "What is up in the picture."},
+    {"fov", kNumber, false, "60", 0.01, 175, "out-of-range", "", "Vertical field of view, degrees."},
+    {"size", kIntegers2, false, "960 720", 1, 1e9, "out-of-range", "",
+     "Width and height of the picture, pixels."},
+};
+
+constexpr KeyRow kSolverRows[] = {
+    {"passes", kInteger, false, "16", 1, kPassesMax, "out-of-range", "", "At most so many passes (bounces)."},
+    {"until", kNumber, false, "0.001", 0, 1, "out-of-range", "",
+     "Stop when a pass adds less than this share of what pass 1 added; 0: never."},
+    {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Longest edge of a starting patch. Absent: chosen from the scene's size."},
+    {"patch_size_min", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Patches with a longest edge below this are not split. Absent: chosen from the scene's size."},
+    {"threshold", kNumber, false, "0.1", 0, 1, "out-of-range", "",
+     "Neighbours that differ by more than this share of the larger one are split."},
+    {"max_patches", kInteger, false, "200000", 1, 1e9, "out-of-range", "", "The budget of patches."},
+    {"rays", kInteger, false, "256", 1, 1e6, "out-of-range", "", "Rays a row of form factors."},
+    {"seed", kInteger, false, "1", 0, 4e18, "out-of-range", "", "Another seed, other samples."},
+};
+
+constexpr KeyRow kOutputRows[] = {
+    {"snapshots", kList, false, "", 0, 0, "", "", "Passes that are shown as pictures. Absent: 1, 2, 16."},
+    {"exposure", kAny, false, "auto", -100, 100, "out-of-range", "",
+     "auto, or an exposure value: shown is B times 2 to this power, 1 is white."},
+    {"shading", kChoice, false, "smooth", 0, 0, "bad-name", "smooth|flat",
+     "smooth, or flat to show the patches."},
+    {"basename", kText, false, "", 0, 0, "", "",
+     "First part of the files' names. Absent: the scene file's name."},
+};
+
+constexpr KeyRow kSharedObjectRows[] = {
+    {"id", kName, false, "", 0, 0, "bad-id", "", "Name of the object. Absent: object1, object2 ..."},
+    {"material", kText, false, "", 0, 0, "", "", "Name of its material."},
+    {"holes", kList, false, "", 0, 0, "", "", "With polygon: lists of corners, each one a hole."},
+    {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
+    {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Longest edge of a starting patch on this object."},
+    {"subdivide", kInteger, false, "", 1, 1e9, "out-of-range", "",
+     "At least n times n patches on each polygon."},
+};
+
+// The shared rows and one a shape, joined once.
+std::span<const KeyRow> object_rows() {
+  static const std::vector<KeyRow> rows = [] {
+    std::vector<KeyRow> all(std::begin(kSharedObjectRows), std::end(kSharedObjectRows));
+    for (const ShapeRow& shape : shape_rows()) {
+      KeyRow row;
+      row.key = shape.name;
+      row.type = kAny;
+      row.description = shape.description;
+      all.push_back(row);
+    }
+    return all;
+  }();
+  return rows;
+}
+
+}  // namespace
+
+const KeyTable kSceneKeys = {"scene", kSceneRows};
+const KeyTable kMaterialKeys = {"material", kMaterialRows};
+const KeyTable kCameraKeys = {"camera", kCameraRows};
+const KeyTable kSolverKeys = {"solver", kSolverRows};
+const KeyTable kOutputKeys = {"output", kOutputRows};
+
+const KeyTable& object_keys() {
+  static const KeyTable table = {"object", object_rows()};
+  return table;
+}
+
+std::span<const KeyTable* const> language_tables() {
+  static const std::vector<const KeyTable*> tables = [] {
+    std::vector<const KeyTable*> all = {&kSceneKeys, &kMaterialKeys, &object_keys()};
+    for (const ShapeRow& shape : shape_rows())
+      if (shape.keys) all.push_back(shape.keys);
+    for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys}) all.push_back(table);
+    return all;
+  }();
+  return tables;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,64 @@
+// The language as tables: which keys each map has, what their values are, and what they mean.
+// The reader, the messages and the JSON Schema all come from these rows.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace patchlight {
+
+enum class ValueType : uint8_t {
+  kText,       // any text
+  kName,       // a text that matches [A-Za-z_][A-Za-z0-9_.-]*
+  kChoice,     // one of the words in `choices`
+  kBoolean,    // true or false
+  kNumber,     // a finite number
+  kInteger,    // a whole number
+  kVec2,       // [a, b], each within low..high
+  kIntegers2,  // [a, b], whole numbers within low..high
+  kVec3,       // [x, y, z], each within low..high
+  kRgb,        // a number or [r, g, b], each within low..high
+  kList,       // a list that its own reader goes through
+  kMap,        // a map with keys of its own (see `choices` for its table)
+  kAny,        // left to its own reader
+};
+
+constexpr double kAnyNumber = std::numeric_limits<double>::max();
+constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
+
+// One key of one map.
+struct KeyRow {
+  std::string_view key;
+  ValueType type = ValueType::kAny;
+  bool required = false;
+  std::string_view fallback;  // the value when the key is absent, as it would be written; empty: none
+  double low = -kAnyNumber;   // least and largest value
+  double high = kAnyNumber;
+  std::string_view slug;     // of the error beyond them, and of a wrong choice
+  std::string_view choices;  // kChoice: a|b|c
+  std::string_view description;
+};
+
+// One kind of map.
+struct KeyTable {
+  std::string_view name;
+  std::span<const KeyRow> rows;
+};
+
+constexpr size_t kKeysMax = 40;  // rows of the largest table
+
+extern const KeyTable kSceneKeys;
+extern const KeyTable kMaterialKeys;
+extern const KeyTable kCameraKeys;
+extern const KeyTable kSolverKeys;
+extern const KeyTable kOutputKeys;
+
+// The keys of an object: the shared ones, then one for each shape (see shapes.h).
+const KeyTable& object_keys();
+
+// All tables, those of the shapes included, in the order in which they are best read.
+std::span<const KeyTable* const> language_tables();
+
+}  // namespace patchlight

@@ -1,0 +1,57 @@
+// The map `materials` to a table.
+#include "materials.h"
+
+#include "values.h"
+
+#include <fmt/format.h>
+
+namespace patchlight {
+
+void read_materials(const Context& context, uint32_t node, MaterialTable& materials) {
+  const Tree& tree = context.tree;
+  for (uint32_t key = tree.nodes[node].first; key != kNone;) {
+    const uint32_t value = tree.nodes[key].next;
+    const std::string name(text_of(tree, key));
+    if (!is_name(name))
+      add_error(context.messages, place_of(tree, key), "bad-name",
+                fmt::format("a material's name begins with a letter or _ and goes on with letters, digits, _ "
+                            ". or -; got '{}'",
+                            escape_text(name)));
+    const MapValues map = read_map(context, value, kMaterialKeys);
+    const DVec3 reflectance = vec3_of(value_of(map, "reflectance"));
+    if (map.good && std::max({reflectance.r, reflectance.g, reflectance.b}) == 1)
+      add_warning(context.messages, place_of(tree, value_of(map, "reflectance").node), "reflectance-one",
+                  "a reflectance of 1 keeps all light: in a closed room the passes never converge");
+    // A material that is wrong still counts as known: its users are not to be reported too.
+    materials.row_of.emplace(name, static_cast<uint32_t>(materials.size()));
+    materials.name.push_back(name);
+    materials.reflectance.push_back(reflectance);
+    materials.emission.push_back(vec3_of(value_of(map, "emission")));
+    materials.node.push_back(key);
+    materials.used.push_back(0);
+    key = tree.nodes[value].next;
+  }
+}
+
+uint32_t find_material(const Context& context, uint32_t node, MaterialTable& materials) {
+  std::string name;
+  if (!read_text(context, node, name)) return kNone;
+  if (const auto row = materials.row_of.find(name); row != materials.row_of.end()) {
+    materials.used[row->second] = 1;
+    return row->second;
+  }
+  std::string message = fmt::format("no material '{}'", escape_text(name));
+  if (wants_errors(context.messages)) {
+    if (const std::string near = did_you_mean(name, materials.name); !near.empty())
+      message += fmt::format("; did you mean '{}'?", near);
+    std::string known;
+    for (size_t k = 0; k < std::min<size_t>(materials.size(), 12); ++k)
+      known += (k ? ", " : "") + materials.name[k];
+    message += materials.size() == 0 ? "; the scene has no materials" : fmt::format(" known: {}", known);
+    if (materials.size() > 12) message += ", ...";
+  }
+  add_error(context.messages, place_of(context.tree, node), "unknown-material", std::move(message));
+  return kNone;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,54 @@
+// Collects what is wrong with a scene, so that one run tells all of it.
+#pragma once
+
+#include "diagnostics.h"
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patchlight {
+
+// A file that was read: its name as the user knows it, and its checked text.
+struct SourceFile {
+  std::string name;
+  std::string text;
+};
+
+// A place in a file. line and column are 1-based; column counts bytes (messages count characters).
+struct Place {
+  uint32_t file = 0;
+  uint32_t line = 0;
+  uint32_t column = 0;
+};
+
+// The files that were read and what is to be said of them. Errors beyond kErrorsShown and warnings of one
+// slug beyond kWarningsShown are only counted.
+struct Messages {
+  struct Count {
+    std::string slug;
+    size_t count = 0;
+  };
+  std::deque<SourceFile> files;
+  std::vector<Diagnostic> errors;
+  size_t error_count = 0;
+  std::vector<Diagnostic> warnings;
+  std::vector<Count> warning_counts;
+};
+
+// Adds one error or warning at a place. The message is built from safe text already.
+void add_error(Messages& messages, Place place, std::string_view slug, std::string message);
+void add_warning(Messages& messages, Place place, std::string_view slug, std::string message);
+
+// True while errors are kept: costly hints need not be worked out beyond that.
+bool wants_errors(const Messages& messages);
+
+// Throws UserError with everything collected, in the order of the files; does nothing without errors.
+void throw_errors(Messages& messages);
+
+// Appends the collected warnings, and one line for each slug of which some were dropped, to `warnings`.
+void hand_over_warnings(Messages& messages, std::vector<Diagnostic>& warnings);
+
+}  // namespace patchlight

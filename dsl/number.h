@@ -1,0 +1,35 @@
+// Scalars to numbers, strictly: what YAML dialects read in different ways is refused.
+#pragma once
+
+#include "messages.h"
+#include "tree.h"
+
+#include <cstdint>
+
+namespace patchlight {
+
+// What the readers of values need: the tree, and where to report.
+struct Context {
+  const Tree& tree;
+  Messages& messages;
+};
+
+// Reads a finite number. False after an error at the node: expected-number, non-finite, number-out-of-range,
+// ambiguous-integer, null-value.
+bool read_number(const Context& context, uint32_t node, double& value);
+
+// Reads a whole number; negative ones come out as out-of-range by the caller's limits, hence `value` is a
+// double of it too. False after an error: expected-integer and those of read_number.
+bool read_integer(const Context& context, uint32_t node, int64_t& value);
+
+// Reads three numbers [x, y, z]. The error's slug for what is no list of three is `slug` (expected-vec3,
+// expected-rgb).
+bool read_three(const Context& context, uint32_t node, std::string_view slug, double (&value)[3]);
+
+// Reads two numbers [a, b]; anything else is expected-list.
+bool read_two(const Context& context, uint32_t node, double (&value)[3]);
+
+// Reports null-value at an empty node and returns true, or returns false.
+bool report_null(const Context& context, uint32_t node, std::string_view expected);
+
+}  // namespace patchlight

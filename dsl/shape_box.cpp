@@ -1,0 +1,28 @@
+// box: six sides that face outward, ID.floor to ID.back.
+#include "limits.h"
+#include "shapes.h"
+#include "sides.h"
+
+namespace patchlight {
+namespace {
+
+constexpr KeyRow kRows[] = {
+    {"size", ValueType::kVec3, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Lengths along x, y, z."},
+    {"at", ValueType::kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "The low corner."},
+};
+
+}  // namespace
+
+const KeyTable kBoxKeys = {"box", kRows};
+
+void build_box(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kBoxKeys);
+  if (!require_material(input) || !map.good) return;
+  const DVec3 low = vec3_of(value_of(map, "at")), high = low + vec3_of(value_of(map, "size"));
+  for (size_t side = 0; side < kSideNames.size(); ++side)
+    add_polygon(input.outlines, input.object_row, input.id + "." + std::string(kSideNames[side]),
+                input.material, input.node, side_corners(side, low, high, false));
+}
+
+}  // namespace patchlight

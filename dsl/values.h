@@ -1,0 +1,48 @@
+// Maps of the tree to values, by a table of keys: unknown and missing keys, types and ranges are checked
+// here.
+#pragma once
+
+#include "engine/vector.h"
+#include "language.h"
+#include "number.h"
+
+#include <array>
+#include <string>
+
+namespace patchlight {
+
+// The value of one key. Where the key is absent `node` is kNone and the numbers are the table's fallback.
+struct Value {
+  uint32_t node = kNone;
+  double number[3] = {0, 0, 0};  // kNumber, kVec2, kVec3, kRgb
+  int64_t integer[2] = {0, 0};   // kInteger, kBoolean, kIntegers2; kChoice: which choice, from 0
+};
+
+// The values of one map, a row for each row of its table. `good` is false when something was wrong with it:
+// an error was reported, and the numbers are not to be used.
+struct MapValues {
+  const KeyTable* table = nullptr;
+  uint32_t node = kNone;
+  bool good = true;
+  std::array<Value, kKeysMax> values;
+};
+
+// Reads a map. Errors: unknown-key (with the nearest known one), missing-key, null-value, expected-..., and
+// the row's own slug for values beyond its range.
+MapValues read_map(const Context& context, uint32_t node, const KeyTable& table);
+
+// The value of a key that the table has.
+const Value& value_of(const MapValues& values, std::string_view key);
+inline bool has(const MapValues& values, std::string_view key) { return value_of(values, key).node != kNone; }
+inline DVec3 vec3_of(const Value& value) { return DVec3(value.number[0], value.number[1], value.number[2]); }
+
+// Checks one value against a row; false after an error. For values that stand in lists of their own.
+bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value& value);
+
+// A text that becomes part of names or is shown: false after expected-text, null-value or control-character.
+bool read_text(const Context& context, uint32_t node, std::string& text);
+
+// True for what matches [A-Za-z_][A-Za-z0-9_.-]*.
+bool is_name(std::string_view text);
+
+}  // namespace patchlight

@@ -1,0 +1,12 @@
+set(DSL_TEST_SOURCES
+  dsl/camera_fit.cpp
+  dsl/cut.cpp
+  dsl/diagnostics.cpp
+  dsl/faces.cpp
+  dsl/number.cpp
+  dsl/prescan.cpp
+  dsl/settings.cpp
+  dsl/source.cpp
+  dsl/tree.cpp
+  dsl/wrong_scenes.cpp
+)
