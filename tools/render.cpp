@@ -30,14 +30,15 @@ struct Stopwatch {
 // All that a run gathers.
 struct Run {
   Talk& talk;
-  Scene scene{};
-  Plan plan{};
-  std::string folder{};
-  Solution solution{};
-  std::vector<FilmTable> films{};  // a row a camera, once made
-  RunReport report{};
-  std::vector<std::string> tables{}, pictures{};  // paths of files, written or on their way
-  JobQueue jobs{};
+  Scene scene;
+  Plan plan;
+  std::string folder;
+  Solution solution;
+  std::vector<FilmTable> films;  // a row a camera, once made
+  RunReport report;
+  std::vector<std::string> tables, pictures;  // paths of files, written or on their way
+  JobQueue jobs;
+  explicit Run(Talk& talk_of_program) : talk(talk_of_program) {}
 };
 
 size_t start_threads(const Options& options, Talk& talk) {
@@ -94,8 +95,8 @@ std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& face
   return values;
 }
 
-// One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass, so that a
-// finished picture stays right whatever comes later.
+// One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass,
+// so that a finished picture stays right whatever comes later.
 void fix_exposure(Run& run) {
   Stopwatch watch;
   if (!run.scene.output.exposure_ev) {
@@ -173,9 +174,6 @@ void advance_all(Run& run, const Tracer& tracer) {
   while (!last) {
     const PassReport& pass = advance(run.solution, run.scene.faces, tracer, settings);
     const bool converged = is_converged(run.solution, settings);
-    // The first pass freezes the mesh: from here on films can be made.
-    if (pass.pass == 1 && run.plan.has_pictures()) make_films(run, tracer);
-    if (pass.pass == 1 && wants(run, PixelKind::kDisplay)) fix_exposure(run);
     last = converged || pass.pass == settings.pass_count_max;
     if (last) run.report.stopped_reason = converged ? "converged" : "passes";
     say_progress(run.talk, fmt::format("pass {} of {}", pass.pass, settings.pass_count_max));
@@ -190,6 +188,9 @@ void advance_all(Run& run, const Tracer& tracer) {
 // Everything that may be cancelled.
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
+  freeze(run.solution, run.scene.faces);
+  if (run.plan.has_pictures()) make_films(run, tracer);
+  if (wants(run, PixelKind::kDisplay)) fix_exposure(run);
   advance_all(run, tracer);
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
@@ -233,9 +234,10 @@ void warn_not_converged(Run& run) {
   if (run.report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
   say_warning(
       run.talk, "not-converged",
-      fmt::format("after {} passes the last one still added {:.2g} of what pass 1 added; until is {:g}; "
-                  "more passes would change the picture",
-                  passes.size(), passes.back().added_largest / passes.front().added_largest, until),
+      fmt::format("pass {} still added {:.2g} % of what pass 1 added, and until is {:g} %: more passes would "
+                  "change the picture",
+                  passes.size(), 100 * passes.back().added_largest / passes.front().added_largest,
+                  100 * until),
       run.scene.file);
 }
 
@@ -245,7 +247,7 @@ int render(const Options& options, Talk& talk) {
   Stopwatch whole, watch;
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
-  Run run{.talk = talk};
+  Run run(talk);
   run.scene = load_scene(options.scene, warnings);
   say_diagnostics(talk, warnings);
   run.plan = make_plan(run.scene, options);

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -24,10 +25,13 @@ void start_long_run(Child& child, const Folder& folder) {
                       "50000", "--rays", "512", "--exposure", "0"});
 }
 
-// Waits until the path is there; false after a minute.
-bool wait_for(const std::string& path) {
+// Waits until the path is there; false when the child ended before, or after a minute.
+bool wait_for(const std::string& path, const Child& child) {
   for (int k = 0; k < 6000; ++k) {
     if (std::filesystem::exists(path)) return true;
+    siginfo_t ended = {};
+    waitid(P_PID, static_cast<id_t>(child.process), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (ended.si_pid != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
@@ -36,12 +40,12 @@ bool wait_for(const std::string& path) {
 }  // namespace
 
 TEST_CASE("a signal in the middle of a pass keeps the finished pictures and writes the report") {
-  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
+  for (const auto& [signal, name] : {std::pair<int, std::string>{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
     CAPTURE(name);
     const Folder folder;
     Child child;
     start_long_run(child, folder);
-    CHECK(wait_for(folder / "lit/box-pass-01.png"));
+    CHECK(wait_for(folder / "lit/box-pass-01.png", child));
     kill(child.process, signal);
     const auto sent = std::chrono::steady_clock::now();
     const ChildResult result = finish_child(child);
@@ -51,7 +55,7 @@ TEST_CASE("a signal in the middle of a pass keeps the finished pictures and writ
     CHECK(list_names(folder / "lit") == "box-pass-01.png box-report.json");
     CHECK(is_whole_png(read_bytes(folder / "lit/box-pass-01.png")));
     CHECK(result.out == folder / "lit/box-report.json" + "\n" + (folder / "lit/box-pass-01.png") + "\n");
-    CHECK(result.err.find(std::string("stopped by ") + name) != std::string::npos);
+    CHECK(result.err.find("stopped by " + name) != std::string::npos);
     const Json json = Json::parse(read_bytes(folder / "lit/box-report.json"));
     CHECK(json["stopped"]["reason"] == "signal");
     CHECK(json["stopped"]["signal"] == name);
@@ -64,7 +68,7 @@ TEST_CASE("a second signal ends the run at once and leaves no temporary files") 
   const Folder folder;
   Child child;
   start_long_run(child, folder);
-  CHECK(wait_for(folder / "lit"));
+  CHECK(wait_for(folder / "lit", child));
   for (int k = 0; k < 50 && kill(child.process, SIGINT) == 0; ++k) usleep(1000);
   const ChildResult result = finish_child(child);
   CHECK(result.exit_code == 130);

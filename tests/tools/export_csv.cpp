@@ -18,9 +18,9 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   FaceTable& faces = scene.faces;
   faces.corners = {{Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 0, 0)}};
   faces.corner_count = {4};
-  faces.normal = {Vec3(0, 1, 0)};
-  faces.emission = {Rgb(1, 2, 3)};
-  faces.reflectance = {Rgb(0.1f)};
+  faces.normal.emplace_back(0, 1, 0);
+  faces.emission.emplace_back(1, 2, 3);
+  faces.reflectance.emplace_back(0.1f);
   faces.polygon = {0};
   faces.twin = {kNone};
   faces.patch_size = {0};
@@ -31,7 +31,7 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   solution.elements.cell = {0};
   solution.elements.level = {1};
   solution.elements.area = {0.25f};
-  solution.elements.radiosity = {Rgb(1.5f, 2.5f, 1e-9f)};
+  solution.elements.radiosity.emplace_back(1.5f, 2.5f, 1e-9f);
 
   const Folder folder;
   NewFile file;
