@@ -76,27 +76,36 @@ bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) 
          any_above(patch, lamp.centre, lamp.normal, slack);
 }
 
-// Sixteen points of an element, packet `packet` of four: the union of the four packets is stratified 8 x 8.
+// Sixteen points of an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts of their
+// strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or 16 x 16.
 struct Points {
   Vec3 point[kPacketSize];
   Vec2 sample[kPacketSize];
 };
 
-Vec2 stratified_sample(uint64_t key, uint32_t packet, uint32_t column, uint32_t row, uint32_t index) {
-  const Vec2 jitter = make_jitter(key, packet * kPacketSize + index);
-  const Vec2 quarter(static_cast<float>((packet ^ index) & 1u),
-                     static_cast<float>(((packet >> 1) ^ (index >> 2)) & 1u));
-  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + 0.5f * (quarter + jitter)) * 0.25f;
+Vec2 stratified_sample(uint64_t key, uint32_t packet, uint32_t packet_count, uint32_t column, uint32_t row,
+                       uint32_t index) {
+  Vec2 inside = make_jitter(key, packet * kPacketSize + index);
+  // From the last digit of the packet to the first: each halves what the ones before it left.
+  uint32_t digits = packet ^ static_cast<uint32_t>(key >> (4 * (index % 8)) & 15);
+  Vec2 base(0);
+  float size = 1;
+  for (uint32_t parts = packet_count; parts >= 4; parts /= 4, digits >>= 2) {
+    size *= 0.5f;
+    base += size * Vec2(static_cast<float>(digits & 1u), static_cast<float>(digits >> 1 & 1u));
+  }
+  inside = base + size * inside;
+  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + inside) * 0.25f;
 }
 
 void make_points(Points& points, const FaceFrameTable& frames, const PatchTable& elements, uint32_t row,
-                 uint64_t key, uint32_t packet) {
+                 uint64_t key, uint32_t packet, uint32_t packet_count) {
   const uint32_t face = elements.face[row];
   const bool triangle = frames.triangle[face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
   for (uint32_t k = 0; k < kPacketSize; ++k)
     points.point[k] = face_point(
-        frames, face, cell_sample(triangle, cell, stratified_sample(key, packet, k % 4, k / 4, k)));
+        frames, face, cell_sample(triangle, cell, stratified_sample(key, packet, packet_count, k % 4, k / 4, k)));
 }
 
 uint32_t find_buried_points(const Points& points, Vec3 normal, const FaceTable& faces, const Tracer& tracer) {
@@ -120,19 +129,19 @@ struct VisibilitySums {
 // Adds one packet of pairs: the element's points against points of the lamp.
 void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
                     const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
-                    uint32_t packet) {
+                    uint32_t packet, uint32_t packet_count) {
   const CellFrame whole{Vec2(0), 1};
   const bool triangle = frames.triangle[lamp.face];
   // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one
   // meets each axis of the other evenly.
   const uint64_t lamp_key = mix_bits(key ^ (uint64_t{lamp.face} + 1) * 0x9e3779b97f4a7c15ull);
-  const auto shuffle = static_cast<uint32_t>(lamp_key >> 8 >> 4 * packet);
+  const auto shuffle = static_cast<uint32_t>(lamp_key >> 4 * (packet % 15));
   RayPacket rays;
   float kernel[kPacketSize];
   uint32_t active = 0;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
-    const Vec2 uv = cell_sample(triangle, whole, stratified_sample(lamp_key, packet, column, row, k));
+    const Vec2 uv = cell_sample(triangle, whole, stratified_sample(lamp_key, packet, packet_count, column, row, k));
     const Vec3 target = face_point(frames, lamp.face, uv) + ray_offset(lamp.centre) * lamp.normal;
     const Vec3 origin = points.point[k] + ray_offset(points.point[k]) * normal;
     const Vec3 way = target - origin;
@@ -154,6 +163,24 @@ void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable,
   }
   sums.rays += static_cast<uint32_t>(std::popcount(active));
   sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
+// Packets of pairs until enough rays agree (there is no shadow edge here then), or all if they do not. `usable`: which
+// of the element's sixteen points, that the exposed share was found from, are not buried.
+VisibilitySums find_visibility(uint32_t row, uint32_t usable, Vec3 normal, const Lamp& lamp,
+                               const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
+                               const Tracer& tracer, DirectRays rays, uint64_t key) {
+  VisibilitySums sums;
+  Points points;
+  const uint32_t packet_count = std::max((rays.mixed + kPacketSize / 2) / kPacketSize, 1u);
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    make_points(points, frames, elements, row, key, packet, packet_count);
+    const uint32_t open =
+        usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
+    add_visibility(sums, points, open, normal, lamp, frames, tracer, key, packet, packet_count);
+  }
+  return sums;
 }
 
 // The element's mean unoccluded factor: at its centre, at four points if the lamp is near, at its exposed
@@ -240,7 +267,7 @@ uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
       const float share = patches.exposed[element_patch[row]];
       elements.exposed[row] = share;
       if (share == 0 || share == 1) continue;
-      make_points(points, frames, elements, row, element_key(elements, row, seed), 0);
+      make_points(points, frames, elements, row, element_key(elements, row, seed), 0, 1);
       const uint32_t buried = find_buried_points(points, faces.normal[elements.face[row]], faces, tracer);
       elements.exposed[row] = 1 - static_cast<float>(std::popcount(buried)) / kPacketSize;
       ray_count += kPacketSize;
@@ -251,7 +278,7 @@ uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
 
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
                      std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
-                     const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays, uint64_t seed) {
+                     const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays, uint64_t seed) {
   assert(out.irradiance.size() == elements.size());
   std::vector<Lamp> lamps;
   std::vector<uint32_t> lamp_of(faces.size(), kNone);
@@ -260,10 +287,9 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
       lamp_of[f] = static_cast<uint32_t>(lamps.size());
       lamps.push_back(make_lamp(faces, frames, f));
     }
-  const uint32_t packets_mixed = std::clamp(rays / 64, 1u, 16u);
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
-    Points first_points, points;
+    Points points;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
       const uint32_t row = rows[r], patch = element_patch[row];
@@ -275,8 +301,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
       double variance = 0;  // emissions may be as large as 1e20
       uint32_t usable = 0xffff;
       if (elements.exposed[row] > 0) {
-        make_points(first_points, frames, elements, row, key, 0);
-        if (elements.exposed[row] < 1) usable &= ~find_buried_points(first_points, normal, faces, tracer);
+        make_points(points, frames, elements, row, key, 0, 1);
+        if (elements.exposed[row] < 1) usable &= ~find_buried_points(points, normal, faces, tracer);
       } else {
         usable = 0;
       }
@@ -290,22 +316,15 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
           continue;
         }
         const float factor =
-            find_mean_factor(elements, frames, row, normal, corners, lamp, first_points, usable);
+            find_mean_factor(elements, frames, row, normal, corners, lamp, points, usable);
         const Rgb emission = faces.emission[lamp.face];
         if (factor == 0) continue;  // the lamp's horizon may still cross a part of the element
         if (settled_seen & bit) {
           irradiance += factor * emission;
           continue;
         }
-        VisibilitySums sums;
-        add_visibility(sums, first_points, usable, normal, lamp, frames, tracer, key, 0);
-        if (sums.reached > 0 && sums.reached < sums.rays)
-          for (uint32_t packet = 1; packet < packets_mixed; ++packet) {
-            make_points(points, frames, elements, row, key, packet);
-            const uint32_t open =
-                usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
-            add_visibility(sums, points, open, normal, lamp, frames, tracer, key, packet);
-          }
+        const VisibilitySums sums = find_visibility(row, usable, normal, lamp, elements, faces, frames, tracer,
+                                                    rays, key);
         cast += sums.rays;
         const float visible = sums.all > 0 ? sums.seen / sums.all : 0;
         if (sums.reached == sums.rays) seen |= bit;

@@ -14,6 +14,7 @@
 #include "vertices.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <chrono>
@@ -25,7 +26,7 @@ namespace {
 // Of the square root of the scene's area, unless the user says otherwise.
 constexpr float kPatchSize = 1 / 30.0f;
 // Of the starting patch size.
-constexpr float kPatchSizeMin = 1 / 32.0f;
+constexpr float kPatchSizeMin = 1 / 64.0f;
 constexpr uint32_t kSourceCount = 400;
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
@@ -161,12 +162,18 @@ std::vector<uint32_t> all_rows(size_t count) {
   return rows;
 }
 
+// Rays a lamp while the mesh is refined, and once it is final.
+DirectRays round_rays(const SolverSettings& settings) { return {16, std::max(settings.rays / 4, 16u)}; }
+DirectRays final_rays(const SolverSettings& settings) {
+  return {std::max(settings.rays / 8, 16u), std::max(settings.rays / 2, 16u)};
+}
+
 void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable& faces, const Tracer& tracer,
-                    const SolverSettings& settings) {
+                    DirectRays rays, const SolverSettings& settings) {
   s.direct_ray_count +=
       find_exposed(s.elements, rows, s.element_patch, s.patches, faces, s.frames, tracer, settings.seed);
   s.direct_ray_count += find_direct({s.direct, s.direct_error, s.views}, rows, s.elements, s.element_patch,
-                                    s.aims, faces, s.frames, tracer, settings.rays, settings.seed);
+                                    s.aims, faces, s.frames, tracer, rays, settings.seed);
 }
 
 // All bounces on the patches alone, from the elements' direct light so far: what refinement and exposure go
@@ -302,7 +309,7 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.views.hidden.assign(count, 0);
   s.views.settled.assign(count, 0);
   s.fresh = all_rows(count);
-  find_direct_of(s, s.fresh, faces, tracer, settings);
+  find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);
   s.seconds.trace += watch.read();
   find_coarse(s, faces);
   find_coarse_radiosity(s, s.fresh, faces);
@@ -327,7 +334,7 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   }
   split_elements(s, marks);
   s.seconds.split += watch.read();
-  find_direct_of(s, s.fresh, faces, tracer, settings);
+  find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);
   s.seconds.trace += watch.read();
   find_coarse_radiosity(s, s.fresh, faces);
   s.seconds.solve += watch.read();
@@ -336,7 +343,30 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   return true;
 }
 
-void freeze(Solution& s, const FaceTable& faces) {
+// Elements with a shadow edge in them, and their neighbours, where sixteen rays may have missed one.
+std::vector<uint32_t> find_shadow_edges(const Solution& s) {
+  std::vector<uint8_t> near(s.elements.size(), 0);
+  for_rows(near.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      if (s.direct_error[row] == 0) continue;
+      std::atomic_ref<uint8_t>(near[row]).store(1, std::memory_order_relaxed);
+      for (uint32_t edge = 0; edge < edge_count(s.frames, s.elements.face[row]); ++edge)
+        for (const uint32_t other :
+             find_neighbours(s.elements, s.frames, s.links, static_cast<uint32_t>(row), edge))
+          if (other != kNone) std::atomic_ref<uint8_t>(near[other]).store(1, std::memory_order_relaxed);
+    }
+  });
+  std::vector<uint32_t> rows;
+  for (uint32_t row = 0; row < near.size(); ++row)
+    if (near[row]) rows.push_back(row);
+  return rows;
+}
+
+void freeze(Solution& s, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {
+  assert(!s.frozen);
+  Stopwatch watch;
+  find_direct_of(s, find_shadow_edges(s), faces, tracer, final_rays(settings), settings);
+  s.seconds.trace += watch.read();
   s.views = {};
   s.fresh = {};
   s.element_vertices = make_vertices(s.elements, s.frames, s.links);
@@ -347,12 +377,13 @@ void freeze(Solution& s, const FaceTable& faces) {
   s.irradiance.assign(s.patches.size(), Rgb(0));
   s.irradiance_added.assign(s.patches.size(), Rgb(0));
   s.frozen = true;
+  s.seconds.split += watch.read();
 }
 
 const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tracer,
                           const SolverSettings& settings) {
   Stopwatch watch;
-  if (!s.frozen) freeze(s, faces);
+  if (!s.frozen) freeze(s, faces, tracer, settings);
   PassReport report;
   report.pass = static_cast<uint32_t>(s.passes.size()) + 1;
   if (report.pass == 1) {

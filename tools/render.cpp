@@ -102,10 +102,10 @@ void fix_exposure(Run& run) {
   if (!run.scene.output.exposure_ev) {
     std::vector<Rgb> values = vertex_radiosity_forecast(run.solution, run.scene.faces);
     if (!is_smooth(run)) values = average_corners(run.solution, run.scene.faces, values);
-    std::vector<float> luminances;
+    std::vector<float> brightness;
     for (const FilmTable& film : run.films)
-      collect_luminances(luminances, film, values, run.solution, run.scene.faces, is_smooth(run));
-    run.scene.output.exposure_ev = pick_exposure_ev(luminances);
+      collect_brightness(brightness, film, values, run.solution, run.scene.faces, is_smooth(run));
+    run.scene.output.exposure_ev = pick_exposure_ev(brightness);
   }
   run.report.exposure_ev = run.scene.output.exposure_ev;
   run.report.seconds.render += watch.lap();
@@ -188,7 +188,7 @@ void advance_all(Run& run, const Tracer& tracer) {
 // Everything that may be cancelled.
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
-  freeze(run.solution, run.scene.faces);
+  freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
   if (run.plan.has_pictures()) make_films(run, tracer);
   if (wants(run, PixelKind::kDisplay)) fix_exposure(run);
   advance_all(run, tracer);
