@@ -10,7 +10,7 @@ namespace patchlight {
 namespace {
 
 constexpr double kShareBelow = 0.9;
-constexpr double kDisplayLevel = 0.65;
+constexpr double kDisplayLevel = 0.7;
 constexpr double kEvLimit = 100;
 constexpr size_t kGrain = 4096;
 const Rgb kLineTint{0.01f, 0.03f, 0.07f};
@@ -37,24 +37,24 @@ std::vector<Rgb> mark_lamps(const Solution& solution, const FaceTable& faces, bo
 
 }  // namespace
 
-void collect_luminances(std::vector<float>& luminances, const FilmTable& film, std::span<const Rgb> values,
+void collect_brightness(std::vector<float>& brightness, const FilmTable& film, std::span<const Rgb> values,
                         const Solution& solution, const FaceTable& faces, bool smooth) {
   const std::vector<Rgb> lamp_share = expose(film, mark_lamps(solution, faces, smooth));
   const std::vector<Rgb> pixels = expose(film, values);
   for (size_t pixel = 0; pixel < pixels.size(); ++pixel) {
     const bool shows_scene = film.pixel_first[pixel] != film.pixel_first[pixel + 1];
-    if (shows_scene && lamp_share[pixel].r <= 0) luminances.push_back(luminance(pixels[pixel]));
+    if (shows_scene && lamp_share[pixel].r <= 0) brightness.push_back(largest(pixels[pixel]));
   }
 }
 
-double pick_exposure_ev(std::span<float> luminances) {
-  const auto lit = std::partition(luminances.begin(), luminances.end(), [](float l) { return l > 0; });
+double pick_exposure_ev(std::span<float> brightness) {
+  const auto lit = std::partition(brightness.begin(), brightness.end(), [](float l) { return l > 0; });
   // Black pixels say nothing about how bright the lit ones should be.
-  const size_t count = static_cast<size_t>(lit - luminances.begin());
+  const size_t count = static_cast<size_t>(lit - brightness.begin());
   if (count == 0) return 0;
   const size_t rank = std::min(count - 1, static_cast<size_t>(kShareBelow * static_cast<double>(count)));
-  std::nth_element(luminances.begin(), luminances.begin() + static_cast<ptrdiff_t>(rank), lit);
-  const double ev = std::log2(kDisplayLevel / luminances[rank]);
+  std::nth_element(brightness.begin(), brightness.begin() + static_cast<ptrdiff_t>(rank), lit);
+  const double ev = std::log2(kDisplayLevel / brightness[rank]);
   return std::clamp(std::round(ev * 100) / 100, -kEvLimit, kEvLimit);
 }
 

@@ -8,14 +8,15 @@
 
 namespace patchlight {
 
-// Appends the luminance of every pixel that shows the scene but no lamp; `values` are what the film was made
-// for (smooth: vertices of the elements; else elements), W/m2.
-void collect_luminances(std::vector<float>& luminances, const FilmTable& film, std::span<const Rgb> values,
+// Appends the brightness (largest channel, W/m2) of every pixel that shows the scene but no lamp; `values`
+// are what the film was made for (smooth: vertices of the elements; else elements), W/m2.
+void collect_brightness(std::vector<float>& brightness, const FilmTable& film, std::span<const Rgb> values,
                         const Solution& solution, const FaceTable& faces, bool smooth);
 
-// The EV, in steps of 0.01, at which nine tenths of the luminances stay below display-linear 0.65: bright
-// spots of the sun may clip, rooms may not be dark. 0 where all is black. Reorders its input.
-double pick_exposure_ev(std::span<float> luminances);
+// The EV, in steps of 0.01, at which nine tenths of the pixels stay below display-linear 0.7: bright spots
+// of the sun may clip, rooms may not be dark. By the largest channel, since a coloured wall that clips loses
+// its colour. 0 where all is black. Reorders its input.
+double pick_exposure_ev(std::span<float> brightness);
 
 // Values as the display will show them: times 2^ev, clipped to 0..1. Clipping comes before the film's sums,
 // so that the edge of a bright lamp is as smooth as any other.
