@@ -1,0 +1,10 @@
+set(ENGINE_TEST_SOURCES
+  engine/cell.cpp
+  engine/lambert.cpp
+  engine/parallel.cpp
+  engine/quadtree.cpp
+  engine/refine.cpp
+  engine/rows.cpp
+  engine/tracer.cpp
+  engine/vertices.cpp
+)
