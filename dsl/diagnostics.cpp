@@ -102,6 +102,11 @@ int exit_code(std::string_view slug) {
   return 3;
 }
 
+int exit_code(const Diagnostic& diagnostic) {
+  const bool usage = diagnostic.slug == "undefined-variable" || diagnostic.slug == "non-finite";
+  return diagnostic.from_command_line && usage ? 2 : exit_code(diagnostic.slug);
+}
+
 std::string format_diagnostic(const Diagnostic& diagnostic) {
   std::string text = escape_text(diagnostic.file, 4096);
   if (diagnostic.line > 0) text += fmt::format(":{}:{}", diagnostic.line, diagnostic.column);

@@ -20,7 +20,8 @@ struct Diagnostic {
   std::string slug;         // stable name, e.g. unknown-material; the table of slugs is in diagnostics.cpp
   std::string message;      // what was found, what was expected; text from files already escaped
   std::string source_line;  // the line of the file, escaped and cut, for the caret; empty: not known
-  int caret = 0;            // 1-based place of the caret under source_line; 0: under `column`
+  bool from_command_line = false;  // -D or --set: a mistake of usage, not of the scene
+  int caret = 0;                   // 1-based place of the caret under source_line; 0: under `column`
 };
 
 // Thrown for everything that the user can mend. `diagnostics` holds at least one error, all that were found
@@ -36,6 +37,9 @@ struct UserError : std::exception {
 
 // 2 usage, 3 the scene is wrong, 4 input/output, 5 a limit or memory: the exit code that belongs to a slug.
 int exit_code(std::string_view slug);
+
+// The same for a whole message: undefined-variable and non-finite are 2 when they come from the command line.
+int exit_code(const Diagnostic& diagnostic);
 
 // FILE:LINE:COL: error[slug]: message, then the source line and a caret. One text, newline at the end.
 std::string format_diagnostic(const Diagnostic& diagnostic);

@@ -15,12 +15,41 @@ constexpr KeyRow kSceneRows[] = {
     {"patchlight", kInteger, false, "", 1, 1e9, "out-of-range", "", "Version of the language: 1. Required."},
     {"title", kText, false, "", 0, 0, "", "", "What the scene is called."},
     {"units", kChoice, false, "m", 0, 0, "bad-unit", "m|cm|mm|ft|in", "Unit of all lengths in the file."},
+    {"let", kMap, false, "", 0, 0, "", "", "Variables by name: numbers or expressions, in any order."},
+    {"include", kList, false, "", 0, 0, "", "", "Files whose variables, materials and objects are added."},
     {"materials", kMap, false, "", 0, 0, "", "", "Materials by name."},
     {"objects", kList, false, "", 0, 0, "", "", "The things in the scene. Required."},
     {"camera", kMap, false, "", 0, 0, "", "", "The camera, where one is enough."},
     {"cameras", kList, false, "", 0, 0, "", "", "Several cameras, each with a name."},
     {"solver", kMap, false, "", 0, 0, "", "", "How the light is computed."},
     {"output", kMap, false, "", 0, 0, "", "", "What the pictures look like."},
+    {"expect", kList, false, "", 0, 0, "", "", "Radiosities that the solution is checked against."},
+};
+
+constexpr KeyRow kIncludeRows[] = {
+    {"file", kText, true, "", 0, 0, "", "", "Path relative to this file, inside the scene's folder."},
+    {"as", kName, false, "", 0, 0, "bad-name", "", "Prefix of its names: lamps makes white lamps.white."},
+};
+
+constexpr KeyRow kTransformRows[] = {
+    {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "", "Shift by [x, y, z]."},
+    {"rotate", kMap, false, "", 0, 0, "", "", "Turn about an axis through the origin: {axis, angle}."},
+    {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]; negative ones mirror."},
+};
+
+constexpr KeyRow kRotateRows[] = {
+    {"axis", kAny, true, "", 0, 0, "", "", "x, y, z or a direction [x, y, z]."},
+    {"angle", kNumber, true, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Degrees, counter-clockwise seen against the axis."},
+};
+
+constexpr KeyRow kExpectRows[] = {
+    {"object", kText, true, "", 0, 0, "", "",
+     "Id of an object or of one of its polygons: their area mean is checked."},
+    {"pass", kInteger, false, "16", 0, kPassesMax, "out-of-range", "", "After which pass."},
+    {"radiosity", kRgb, true, "", 0, kAnyNumber, "out-of-range", "", "W/m2: a number or [r, g, b]."},
+    {"tolerance", kNumber, false, "0.02", 0, 1, "out-of-range", "",
+     "Allowed difference, as a share of the largest channel."},
 };
 
 constexpr KeyRow kMaterialRows[] = {
@@ -71,6 +100,11 @@ constexpr KeyRow kSharedObjectRows[] = {
     {"id", kName, false, "", 0, 0, "bad-id", "", "Name of the object. Absent: object1, object2 ..."},
     {"material", kText, false, "", 0, 0, "", "", "Name of its material."},
     {"holes", kList, false, "", 0, 0, "", "", "With polygon: lists of corners, each one a hole."},
+    {"transform", kList, false, "", 0, 0, "", "", "Steps in order, each one of translate, rotate, scale."},
+    {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Shift, after scale and rotate."},
+    {"rotate", kMap, false, "", 0, 0, "", "", "Turn, after scale: {axis, angle}."},
+    {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]."},
     {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
     {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
      "Longest edge of a starting patch on this object."},
@@ -97,6 +131,10 @@ std::span<const KeyRow> object_rows() {
 }  // namespace
 
 const KeyTable kSceneKeys = {"scene", kSceneRows};
+const KeyTable kIncludeKeys = {"include", kIncludeRows};
+const KeyTable kTransformKeys = {"transform", kTransformRows};
+const KeyTable kRotateKeys = {"rotate", kRotateRows};
+const KeyTable kExpectKeys = {"expect", kExpectRows};
 const KeyTable kMaterialKeys = {"material", kMaterialRows};
 const KeyTable kCameraKeys = {"camera", kCameraRows};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
@@ -109,10 +147,12 @@ const KeyTable& object_keys() {
 
 std::span<const KeyTable* const> language_tables() {
   static const std::vector<const KeyTable*> tables = [] {
-    std::vector<const KeyTable*> all = {&kSceneKeys, &kMaterialKeys, &object_keys()};
+    std::vector<const KeyTable*> all = {&kSceneKeys,    &kIncludeKeys,   &kMaterialKeys,
+                                        &object_keys(), &kTransformKeys, &kRotateKeys};
     for (const ShapeRow& shape : shape_rows())
       if (shape.keys) all.push_back(shape.keys);
-    for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys}) all.push_back(table);
+    for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys, &kExpectKeys})
+      all.push_back(table);
     return all;
   }();
   return tables;

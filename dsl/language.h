@@ -50,6 +50,10 @@ struct KeyTable {
 constexpr size_t kKeysMax = 40;  // rows of the largest table
 
 extern const KeyTable kSceneKeys;
+extern const KeyTable kIncludeKeys;    // of one entry of `include`
+extern const KeyTable kTransformKeys;  // of one step of `transform`
+extern const KeyTable kRotateKeys;
+extern const KeyTable kExpectKeys;  // of one entry of `expect`
 extern const KeyTable kMaterialKeys;
 extern const KeyTable kCameraKeys;
 extern const KeyTable kSolverKeys;

@@ -20,6 +20,10 @@ constexpr uint64_t kImagePixelsMax = 64'000'000;
 constexpr uint32_t kPassesMax = 10'000;
 constexpr uint64_t kStartPatchesMax =
     1'000'000;  // what `subdivide` may ask for, unless max_patches is larger
+constexpr size_t kExpressionBytesMax = 1000;
+constexpr int kExpressionDepthMax = 64;
+constexpr size_t kIncludesMax = 256;
+constexpr size_t kIncludeDepthMax = 16;
 constexpr size_t kErrorsShown = 20;
 constexpr size_t kWarningsShown = 20;  // of one kind
 

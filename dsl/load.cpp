@@ -2,15 +2,19 @@
 #include "load.h"
 
 #include "camera_fit.h"
+#include "expect.h"
 #include "faces.h"
+#include "include.h"
 #include "limits.h"
 #include "materials.h"
 #include "objects.h"
 #include "outlines.h"
+#include "overrides.h"
 #include "settings.h"
 #include "source.h"
 #include "tree.h"
 #include "values.h"
+#include "variables.h"
 
 #include <fmt/format.h>
 
@@ -24,13 +28,6 @@ namespace {
 constexpr std::array<std::string_view, 5> kUnitNames = {"m", "cm", "mm", "ft", "in"};
 constexpr std::array<double, 5> kUnitMetres = {1, 0.01, 0.001, 0.3048, 0.0254};
 
-// What the file says, before it becomes faces.
-struct SceneText {
-  MaterialTable materials;
-  ObjectTable objects;
-  OutlineTable outlines;
-};
-
 void check_version(const Context& context, const MapValues& map) {
   const Value& version = value_of(map, "patchlight");
   if (version.node == kNone)
@@ -42,47 +39,69 @@ void check_version(const Context& context, const MapValues& map) {
                           version.integer[0]));
 }
 
-void read_scene(const Context& context, uint32_t root, SceneText& text, Scene& scene) {
+// The node of a key, where it is there and of the right kind.
+uint32_t node_of(const Tree& tree, const MapValues& map, std::string_view key, NodeKind kind) {
+  const uint32_t node = value_of(map, key).node;
+  return node != kNone && tree.nodes[node].kind == kind ? node : kNone;
+}
+
+// Variables, materials and objects of all files: included ones come first.
+void read_contents(Context& context, const std::vector<SceneFile>& files, const LoadOptions& options,
+                   SceneObjects& objects) {
   const Tree& tree = context.tree;
-  const MapValues map = read_map(context, root, kSceneKeys);
-  check_version(context, map);
-  const auto node_of = [&](std::string_view key, NodeKind kind) {
-    const uint32_t node = value_of(map, key).node;
-    return node != kNone && tree.nodes[node].kind == kind ? node : kNone;
+  const auto for_files = [&](std::string_view key, NodeKind kind, auto&& read) {
+    for (const SceneFile& file : files) {
+      const uint32_t node = node_of(tree, file.map, key, kind);
+      context.prefix = file.prefix;
+      if (node != kNone) read(node);
+    }
+    context.prefix.clear();
   };
+  for_files("let", NodeKind::kMap, [&](uint32_t node) { read_let(context, node, *context.variables); });
+  define_variables(context, options.definitions);
+  check_variables(context);
+  for_files("materials", NodeKind::kMap,
+            [&](uint32_t node) { read_materials(context, node, objects.materials); });
+  for_files("objects", NodeKind::kList, [&](uint32_t node) { read_objects(context, node, objects); });
+}
+
+// The maps that only the scene itself has.
+void read_settings(const Context& context, const MapValues& map, Scene& scene) {
+  const Tree& tree = context.tree;
+  check_version(context, map);
   scene.title = has(map, "title") ? text_of(tree, value_of(map, "title").node) : std::string_view{};
   const auto unit = static_cast<size_t>(value_of(map, "units").integer[0]);
   scene.units = kUnitNames[unit];
   scene.metres_per_unit = kUnitMetres[unit];
-  if (const uint32_t node = node_of("materials", NodeKind::kMap); node != kNone)
-    read_materials(context, node, text.materials);
-  if (const uint32_t node = node_of("objects", NodeKind::kList); node != kNone)
-    read_objects(context, node, text.materials, text.objects, text.outlines);
-  else if (!has(map, "objects") && map.good)
-    add_error(context.messages, place_of(tree, root), "empty-scene",
-              "the scene has no objects: 'objects' is missing");
   if (has(map, "camera") && has(map, "cameras"))
     add_error(context.messages, place_of(tree, value_of(map, "cameras").node), "ambiguous-shape",
               "a scene has either 'camera' or 'cameras'");
-  if (const uint32_t node = node_of("camera", NodeKind::kMap); node != kNone)
+  if (const uint32_t node = node_of(tree, map, "camera", NodeKind::kMap); node != kNone)
     read_camera(context, node, scene.cameras);
-  if (const uint32_t node = node_of("cameras", NodeKind::kList); node != kNone)
+  if (const uint32_t node = node_of(tree, map, "cameras", NodeKind::kList); node != kNone)
     read_cameras(context, node, scene.cameras);
-  if (const uint32_t node = node_of("solver", NodeKind::kMap); node != kNone)
+  if (const uint32_t node = node_of(tree, map, "solver", NodeKind::kMap); node != kNone)
     read_solver(context, node, scene.solver);
-  if (const uint32_t node = node_of("output", NodeKind::kMap); node != kNone)
+  if (const uint32_t node = node_of(tree, map, "output", NodeKind::kMap); node != kNone)
     read_output(context, node, scene.solver, scene.output);
 }
 
-void warn_of_materials(const Context& context, const SceneText& text, uint32_t root) {
+void check_not_empty(const Context& context, const MapValues& map, const SceneObjects& objects) {
+  if (objects.objects.size() > 0 || context.messages.error_count > 0) return;
+  const uint32_t list = value_of(map, "objects").node;
+  add_error(context.messages, place_of(context.tree, list != kNone ? list : map.node), "empty-scene",
+            "the scene has no objects");
+}
+
+void warn_of_materials(const Context& context, const MaterialTable& materials, uint32_t root) {
   bool emits = false;
-  for (uint32_t m = 0; m < text.materials.size(); ++m) {
-    const Place place = place_of(context.tree, text.materials.node[m]);
-    if (!text.materials.used[m])
+  for (uint32_t m = 0; m < materials.size(); ++m) {
+    const Place place = place_of(context.tree, materials.node[m]);
+    if (!materials.used[m])
       add_warning(context.messages, place, "unused-material",
-                  fmt::format("no object uses the material '{}'", escape_text(text.materials.name[m])));
-    const DRgb e = text.materials.emission[m];
-    emits = emits || (text.materials.used[m] && std::max({e.r, e.g, e.b}) > 0);
+                  fmt::format("no object uses the material '{}'", escape_text(materials.name[m])));
+    const DRgb e = materials.emission[m];
+    emits = emits || (materials.used[m] && std::max({e.r, e.g, e.b}) > 0);
   }
   if (!emits)
     add_warning(context.messages, place_of(context.tree, root), "no-emitter",
@@ -100,7 +119,8 @@ void convert_lengths(Scene& scene) {
   scene.solver.patch_size_min = static_cast<float>(scene.solver.patch_size_min / scene.units_per_length);
 }
 
-Scene compile(Messages& messages, std::vector<Diagnostic>& warnings) {
+Scene compile(Messages& messages, const std::string& path, const LoadOptions& options,
+              std::vector<Diagnostic>& warnings) {
   Scene scene;
   scene.file = messages.files[0].name;
   if (!check_source(messages, 0)) throw_errors(messages);
@@ -111,20 +131,30 @@ Scene compile(Messages& messages, std::vector<Diagnostic>& warnings) {
     add_error(messages, {0, 1, 1}, "empty-scene", "the file holds no scene; it begins with 'patchlight: 1'");
     throw_errors(messages);
   }
-  const Context context{tree, messages};
+  VariableTable variables;
+  Context context{tree, messages, &variables};
   if (tree.nodes[root].kind != NodeKind::kMap) {
     add_error(messages, place_of(tree, root), "root-not-map",
               fmt::format("a scene is a map that begins with 'patchlight: 1', got {}", describe(tree, root)));
     throw_errors(messages);
   }
-  SceneText text;
-  read_scene(context, root, text, scene);
-  check_ids(context, text.objects, text.outlines);
-  if (messages.error_count == 0 || text.outlines.size() <= kPolygonsMax)
-    make_faces(messages, tree, text.materials, text.objects, text.outlines,
+  apply_overrides(messages, options.overrides, root, tree);
+  const std::vector<SceneFile> files = read_includes(context, tree, root, path);
+  const MapValues& map = files.back().map;
+  SceneObjects objects;
+  read_contents(context, files, options, objects);
+  read_settings(context, map, scene);
+  check_not_empty(context, map, objects);
+  if (objects.outlines.size() <= kPolygonsMax) {
+    check_ids(context, objects.objects, objects.outlines);
+    make_faces(messages, tree, objects.materials, objects.objects, objects.outlines,
                std::max<uint64_t>(kStartPatchesMax, scene.solver.patch_count_max), scene);
+  }
   throw_errors(messages);
-  warn_of_materials(context, text, root);
+  if (const uint32_t list = value_of(map, "expect").node; list != kNone)
+    read_expectations(context, list, scene);
+  throw_errors(messages);
+  warn_of_materials(context, objects.materials, root);
   convert_lengths(scene);
   if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.faces));
   hand_over_warnings(messages, warnings);
@@ -133,16 +163,17 @@ Scene compile(Messages& messages, std::vector<Diagnostic>& warnings) {
 
 }  // namespace
 
-Scene load_scene(const std::string& path, std::vector<Diagnostic>& warnings) {
+Scene load_scene(const std::string& path, std::vector<Diagnostic>& warnings, const LoadOptions& options) {
   Messages messages;
   messages.files.push_back({path == "-" ? "<stdin>" : path, read_bytes(path)});
-  return compile(messages, warnings);
+  return compile(messages, path == "-" ? "." : path, options, warnings);
 }
 
-Scene load_scene_text(std::string_view text, const std::string& name, std::vector<Diagnostic>& warnings) {
+Scene load_scene_text(std::string_view text, const std::string& name, std::vector<Diagnostic>& warnings,
+                      const LoadOptions& options) {
   Messages messages;
   messages.files.push_back({name, std::string(text)});
-  return compile(messages, warnings);
+  return compile(messages, name, options, warnings);
 }
 
 }  // namespace patchlight

@@ -23,8 +23,12 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
       add_warning(context.messages, place_of(tree, value_of(map, "reflectance").node), "reflectance-one",
                   "a reflectance of 1 keeps all light: in a closed room the passes never converge");
     // A material that is wrong still counts as known: its users are not to be reported too.
-    materials.row_of.emplace(name, static_cast<uint32_t>(materials.size()));
-    materials.name.push_back(name);
+    const auto [row, is_new] =
+        materials.row_of.emplace(context.prefix + name, static_cast<uint32_t>(materials.size()));
+    if (!is_new)
+      add_error(context.messages, place_of(tree, key), "duplicate-id",
+                fmt::format("the material '{}' is defined by another file too", escape_text(row->first)));
+    materials.name.push_back(context.prefix + name);
     materials.reflectance.push_back(reflectance);
     materials.emission.push_back(vec3_of(value_of(map, "emission")));
     materials.node.push_back(key);
@@ -36,10 +40,11 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
 uint32_t find_material(const Context& context, uint32_t node, MaterialTable& materials) {
   std::string name;
   if (!read_text(context, node, name)) return kNone;
-  if (const auto row = materials.row_of.find(name); row != materials.row_of.end()) {
-    materials.used[row->second] = 1;
-    return row->second;
-  }
+  for (const std::string& full : {context.prefix + name, name})
+    if (const auto row = materials.row_of.find(full); row != materials.row_of.end()) {
+      materials.used[row->second] = 1;
+      return row->second;
+    }
   std::string message = fmt::format("no material '{}'", escape_text(name));
   if (wants_errors(context.messages)) {
     if (const std::string near = did_you_mean(name, materials.name); !near.empty())

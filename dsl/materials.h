@@ -12,7 +12,7 @@
 namespace patchlight {
 
 struct MaterialTable {
-  std::vector<std::string> name;
+  std::vector<std::string> name;  // with the prefix of its include
   std::vector<DRgb> reflectance;  // 0..1
   std::vector<DRgb> emission;     // W/m2
   std::vector<uint32_t> node;     // of its name
@@ -24,8 +24,8 @@ struct MaterialTable {
 // Reads the map `materials`. Errors: bad-name and those of read_map; warning reflectance-one.
 void read_materials(const Context& context, uint32_t node, MaterialTable& materials);
 
-// The row of the material that a scalar names, marked as used; kNone after unknown-material (with the nearest
-// name).
+// The row of the material that a scalar names, in its own file's names first, marked as used; kNone after
+// unknown-material (with the nearest name).
 uint32_t find_material(const Context& context, uint32_t node, MaterialTable& materials);
 
 }  // namespace patchlight

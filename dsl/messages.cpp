@@ -42,6 +42,7 @@ Diagnostic make_diagnostic(const Messages& messages, Place place, std::string_vi
   if (place.file >= messages.files.size()) return diagnostic;
   const SourceFile& file = messages.files[place.file];
   diagnostic.file = file.name;
+  diagnostic.from_command_line = file.command_line;
   diagnostic.line = static_cast<int>(place.line);
   diagnostic.column = static_cast<int>(place.column);
   if (place.line == 0) return diagnostic;
@@ -68,6 +69,15 @@ bool earlier(const Diagnostic& a, const Diagnostic& b) {
 void add_error(Messages& messages, Place place, std::string_view slug, std::string message) {
   if (wants_errors(messages))
     messages.errors.push_back(make_diagnostic(messages, place, slug, std::move(message), Severity::kError));
+  ++messages.error_count;
+}
+
+void add_command_line_error(Messages& messages, std::string_view slug, std::string message) {
+  if (wants_errors(messages)) {
+    messages.errors.push_back(
+        make_diagnostic(messages, {~uint32_t{0}, 0, 0}, slug, std::move(message), Severity::kError));
+    messages.errors.back().from_command_line = true;
+  }
   ++messages.error_count;
 }
 

@@ -11,10 +11,11 @@
 
 namespace patchlight {
 
-// A file that was read: its name as the user knows it, and its checked text.
+// A file that was read: its name as the user knows it, and its checked text. The value of a --set is one too.
 struct SourceFile {
   std::string name;
   std::string text;
+  bool command_line = false;
 };
 
 // A place in a file. line and column are 1-based; column counts bytes (messages count characters).
@@ -40,6 +41,7 @@ struct Messages {
 
 // Adds one error or warning at a place. The message is built from safe text already.
 void add_error(Messages& messages, Place place, std::string_view slug, std::string message);
+void add_command_line_error(Messages& messages, std::string_view slug, std::string message);  // has no place
 void add_warning(Messages& messages, Place place, std::string_view slug, std::string message);
 
 // True while errors are kept: costly hints need not be worked out beyond that.

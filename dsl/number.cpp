@@ -1,6 +1,8 @@
 // Scalars to numbers by std::from_chars: no locale, no hexadecimal, no underscores, no quoted numbers.
 #include "number.h"
 
+#include "expression.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -53,6 +55,24 @@ bool plain_text(const Context& context, uint32_t node, std::string_view slug, st
   return true;
 }
 
+// A whole number by an expression, up to rounding.
+bool evaluate_integer(const Context& context, uint32_t node, int64_t& value) {
+  double number = 0;
+  if (!evaluate(context, node, number)) return false;
+  const double whole = std::round(number);
+  if (std::abs(number - whole) > 1e-9 * std::max(1.0, std::abs(whole))) {
+    report(context, node, "expected-integer",
+           fmt::format("expected a whole number, the expression gives {:g}", number));
+    return false;
+  }
+  if (std::abs(whole) > static_cast<double>(kIntegerMax)) {
+    report(context, node, "number-out-of-range", fmt::format("{:g} is too large for a whole number", number));
+    return false;
+  }
+  value = static_cast<int64_t>(whole);
+  return true;
+}
+
 bool report_ambiguous(const Context& context, uint32_t node, std::string_view text) {
   const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
   if (!is_ambiguous(digits)) return false;
@@ -71,6 +91,7 @@ bool report_null(const Context& context, uint32_t node, std::string_view expecte
 }
 
 bool read_number(const Context& context, uint32_t node, double& value) {
+  if (is_expression(text_of(context.tree, node))) return evaluate(context, node, value);
   std::string_view text;
   if (!plain_text(context, node, "expected-number", "a number", text)) return false;
   const bool numeric = !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string_view::npos;
@@ -95,6 +116,7 @@ bool read_number(const Context& context, uint32_t node, double& value) {
 }
 
 bool read_integer(const Context& context, uint32_t node, int64_t& value) {
+  if (is_expression(text_of(context.tree, node))) return evaluate_integer(context, node, value);
   std::string_view text;
   if (!plain_text(context, node, "expected-integer", "a whole number", text)) return false;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -4,18 +4,27 @@
 #include "messages.h"
 #include "tree.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace patchlight {
 
-// What the readers of values need: the tree, and where to report.
+struct VariableTable;
+
+// What the readers of values need: the tree, where to report, and what names mean at this point of it.
 struct Context {
   const Tree& tree;
   Messages& messages;
+  VariableTable* variables = nullptr;  // nullptr: none
+  std::string prefix = {};             // of names in this file: "lamps." for an include `as: lamps`
+  std::array<std::optional<double>, 3> index = {};  // $i, $j, $k of the innermost repeats
+  uint64_t copies = 1;                              // how often the enclosing repeats make what is read
 };
 
-// Reads a finite number. False after an error at the node: expected-number, non-finite, number-out-of-range,
-// ambiguous-integer, null-value.
+// Reads a finite number, written out or as an expression. False after an error at the node: expected-number,
+// non-finite, number-out-of-range, ambiguous-integer, null-value, and those of evaluate (expression.h).
 bool read_number(const Context& context, uint32_t node, double& value);
 
 // Reads a whole number; negative ones come out as out-of-range by the caller's limits, hence `value` is a

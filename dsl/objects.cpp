@@ -3,6 +3,7 @@
 
 #include "limits.h"
 #include "shapes.h"
+#include "transform.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +15,7 @@ namespace {
 // The one shape that an object names; nullptr after an error.
 const ShapeRow* find_shape(const Context& context, const MapValues& object) {
   const ShapeRow* found = nullptr;
-  std::string known;
   for (const ShapeRow& shape : shape_rows()) {
-    known += (known.empty() ? "" : ", ") + std::string(shape.name);
     if (!has(object, shape.name)) continue;
     if (found) {
       add_error(context.messages, place_of(context.tree, object.node), "ambiguous-shape",
@@ -25,14 +24,42 @@ const ShapeRow* find_shape(const Context& context, const MapValues& object) {
     }
     found = &shape;
   }
-  if (!found)
-    add_error(context.messages, place_of(context.tree, object.node), "missing-key",
-              fmt::format("an object needs a shape: one of {}", known));
-  return found;
+  if (found) return found;
+  std::string known;
+  for (const ShapeRow& shape : shape_rows()) known += (known.empty() ? "" : ", ") + std::string(shape.name);
+  add_error(context.messages, place_of(context.tree, object.node), "missing-key",
+            fmt::format("an object needs a shape: one of {}", known));
+  return nullptr;
 }
 
-void read_object(const Context& context, uint32_t node, const std::string& default_id,
-                 MaterialTable& materials, ObjectTable& objects, OutlineTable& outlines) {
+// What the object says itself, before what it inherits. False after unknown-material.
+bool read_own(const Context& context, const MapValues& map, MaterialTable& materials, Inherited& own) {
+  if (const uint32_t name = value_of(map, "material").node; name != kNone) {
+    own.material = find_material(context, name, materials);
+    if (own.material == kNone) return false;
+  }
+  if (has(map, "two_sided")) own.two_sided = value_of(map, "two_sided").integer[0] != 0;
+  if (has(map, "patch_size")) own.patch_size = value_of(map, "patch_size").number[0];
+  if (has(map, "subdivide")) {
+    own.subdivide = static_cast<uint32_t>(value_of(map, "subdivide").integer[0]);
+    own.subdivide_node = value_of(map, "subdivide").node;
+  }
+  return true;
+}
+
+uint32_t add_object(uint32_t node, const Inherited& own, ObjectTable& objects) {
+  objects.node.push_back(node);
+  objects.two_sided.push_back(own.two_sided);
+  objects.patch_size.push_back(own.patch_size);
+  objects.subdivide.push_back(own.subdivide);
+  objects.subdivide_node.push_back(own.subdivide_node);
+  return static_cast<uint32_t>(objects.size() - 1);
+}
+
+}  // namespace
+
+void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
+                 SceneObjects& scene) {
   const MapValues map = read_map(context, node, object_keys());
   if (!map.good) return;
   const ShapeRow* shape = find_shape(context, map);
@@ -42,38 +69,30 @@ void read_object(const Context& context, uint32_t node, const std::string& defau
               fmt::format("'holes' goes with 'polygon', not with '{}'", shape->name));
     return;
   }
-  const Value& id_value = value_of(map, "id");
+  Inherited own = inherited;
+  if (!read_own(context, map, scene.materials, own)) return;
+  Transform transform;
+  bool moved = false;
+  if (!read_object_transform(context, map, transform, moved)) return;
+  const uint32_t id_node = value_of(map, "id").node;
   const std::string id =
-      id_value.node != kNone ? std::string(text_of(context.tree, id_value.node)) : default_id;
-  uint32_t material = kNone;
-  if (const uint32_t name = value_of(map, "material").node; name != kNone) {
-    material = find_material(context, name, materials);
-    if (material == kNone) return;
-  }
-  const auto row = static_cast<uint32_t>(objects.size());
-  const Value& subdivide = value_of(map, "subdivide");
-  objects.node.push_back(id_value.node != kNone ? id_value.node : node);
-  objects.two_sided.push_back(static_cast<uint8_t>(value_of(map, "two_sided").integer[0]));
-  objects.patch_size.push_back(has(map, "patch_size") ? value_of(map, "patch_size").number[0] : 0);
-  objects.subdivide.push_back(subdivide.node != kNone ? static_cast<uint32_t>(subdivide.integer[0]) : 1);
-  objects.subdivide_node.push_back(subdivide.node);
-  shape->build({context, map, value_of(map, shape->name).node, row, id, material, materials, outlines});
-  if (outlines.size() > kPolygonsMax)
+      id_node != kNone ? name.prefix + std::string(text_of(context.tree, id_node)) : name.unnamed;
+  const uint32_t row = add_object(id_node != kNone ? id_node : node, own, scene.objects);
+  const size_t first = scene.outlines.size();
+  shape->build({context, map, value_of(map, shape->name).node, id, own, row, scene});
+  if (moved) apply_transform(transform, node, first, scene.outlines);
+  if (scene.outlines.size() > kPolygonsMax)
     add_error(context.messages, place_of(context.tree, node), "too-many-polygons",
               fmt::format("more than the limit of {} polygons", kPolygonsMax));
 }
 
-}  // namespace
-
-void read_objects(const Context& context, uint32_t list, MaterialTable& materials, ObjectTable& objects,
-                  OutlineTable& outlines) {
+void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
   const Tree& tree = context.tree;
-  if (tree.nodes[list].count == 0)
-    add_error(context.messages, place_of(tree, list), "empty-scene", "the scene has no objects");
   size_t number = 0;
   for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next) {
-    read_object(context, child, fmt::format("object{}", ++number), materials, objects, outlines);
-    if (outlines.size() > kPolygonsMax) return;
+    read_object(context, child, {context.prefix, fmt::format("{}object{}", context.prefix, ++number)},
+                Inherited{}, scene);
+    if (scene.outlines.size() > kPolygonsMax) return;
   }
 }
 

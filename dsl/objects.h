@@ -4,12 +4,38 @@
 #include "materials.h"
 #include "outlines.h"
 
+#include <string>
+
 namespace patchlight {
 
-// Reads all objects into polygons, in the order of the file. Errors: empty-scene, missing-key,
-// ambiguous-shape, unknown-material, bad-id, duplicate-id and those of the shapes.
-void read_objects(const Context& context, uint32_t list, MaterialTable& materials, ObjectTable& objects,
-                  OutlineTable& outlines);
+// What an object takes from the group or repeat that it stands in, where it does not say otherwise.
+struct Inherited {
+  uint32_t material = kNone;  // row of MaterialTable
+  bool two_sided = false;
+  double patch_size = 0;  // file units; 0: as the settings say
+  uint32_t subdivide = 1;
+  uint32_t subdivide_node = kNone;
+};
+
+// All that the objects of a scene become.
+struct SceneObjects {
+  MaterialTable materials;
+  ObjectTable objects;
+  OutlineTable outlines;
+};
+
+// Reads all objects of a list, in the order of the file; ids get the context's prefix. Errors: missing-key,
+// ambiguous-shape, unknown-material, bad-id, too-many-polygons and those of the shapes.
+void read_objects(const Context& context, uint32_t list, SceneObjects& scene);
+
+// What an object is called: `prefix` and its own id, or `unnamed` where it has none.
+struct ObjectName {
+  std::string prefix, unnamed;
+};
+
+// Reads one object, with all that stands in it.
+void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
+                 SceneObjects& scene);
 
 // Reports polygons that share an id (duplicate-id).
 void check_ids(const Context& context, const ObjectTable& objects, const OutlineTable& outlines);

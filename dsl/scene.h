@@ -35,6 +35,16 @@ struct OutputSettings {
   Shading shading = Shading::kSmooth;
 };
 
+// What `verify` checks: the area mean of some polygons' radiosity after a pass.
+struct Expectation {
+  std::string object;              // as the file names it
+  uint32_t line = 0;               // 1-based place in the file
+  std::vector<uint32_t> polygons;  // rows of PolygonTable, at least one
+  uint32_t pass = 16;
+  Rgb radiosity{0};         // W/m2
+  double tolerance = 0.02;  // share of the largest channel
+};
+
 struct Scene {
   std::string file;  // as the user named it; <stdin> for -
   std::string title;
@@ -43,6 +53,7 @@ struct Scene {
   std::vector<Camera> cameras;  // never empty: the automatic one where the file names none
   SolverSettings solver;
   OutputSettings output;
+  std::vector<Expectation> expectations;
   std::string units = "m";
   // A point of the file is origin + p * units_per_length, p in engine lengths. Both in the file's units.
   DVec3 origin{0};

@@ -3,6 +3,8 @@
 #include "shapes.h"
 #include "sides.h"
 
+#include <fmt/format.h>
+
 namespace patchlight {
 namespace {
 
@@ -21,8 +23,7 @@ void build_box(const ShapeInput& input) {
   if (!require_material(input) || !map.good) return;
   const DVec3 low = vec3_of(value_of(map, "at")), high = low + vec3_of(value_of(map, "size"));
   for (size_t side = 0; side < kSideNames.size(); ++side)
-    add_polygon(input.outlines, input.object_row, input.id + "." + std::string(kSideNames[side]),
-                input.material, input.node, side_corners(side, low, high, false));
+    add_part(input, fmt::format(".{}", kSideNames[side]), side_corners(side, low, high, false));
 }
 
 }  // namespace patchlight

@@ -40,7 +40,7 @@ void build_room(const ShapeInput& input) {
   std::array<bool, kSideNames.size() + 1> omitted{};
   std::array<uint32_t, kSideNames.size() + 1> material;
   std::array<bool, kSideNames.size() + 1> named{};
-  material.fill(input.material);
+  material.fill(input.own.material);
   if (const uint32_t list = value_of(map, "omit").node; list != kNone)
     for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next)
       omitted[find_side(context, child, "bad-name")] = true;
@@ -49,14 +49,14 @@ void build_room(const ShapeInput& input) {
       const uint32_t value = tree.nodes[key].next;
       const size_t side = find_side(context, key, "unknown-key");
       named[side] = true;
-      material[side] = find_material(context, value, input.materials);
+      material[side] = find_material(context, value, input.scene.materials);
       key = tree.nodes[value].next;
     }
   const DVec3 low = vec3_of(value_of(map, "at")), high = low + vec3_of(value_of(map, "size"));
   for (size_t side = 0; side < kSideNames.size(); ++side) {
     if (omitted[side]) continue;
     if (!named[side] && !require_material(input)) return;
-    add_polygon(input.outlines, input.object_row, input.id + "." + std::string(kSideNames[side]),
+    add_polygon(input.scene.outlines, input.object_row, fmt::format("{}.{}", input.id, kSideNames[side]),
                 material[side], input.node, side_corners(side, low, high, true));
   }
 }

@@ -1,27 +1,90 @@
 // The list of shapes. A new one is its file and its row here.
 #include "shapes.h"
 
+#include "limits.h"
+
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace patchlight {
 
 std::span<const ShapeRow> shape_rows() {
   static constexpr ShapeRow kRows[] = {
-      {"polygon", nullptr, build_polygon, false,
-       "List of corners [x, y, z], counter-clockwise from the lit side."},
-      {"quad", &kQuadKeys, build_quad, false,
+      {"polygon", nullptr, build_polygon, "List of corners [x, y, z], counter-clockwise from the lit side."},
+      {"quad", &kQuadKeys, build_quad,
        "A rectangle by centre, size and normal, or a parallelogram by origin, u, v."},
-      {"box", &kBoxKeys, build_box, false, "A box whose six sides face outward."},
-      {"room", &kRoomKeys, build_room, true, "A box whose sides face inward; sides can be left out."},
+      {"box", &kBoxKeys, build_box, "A box whose six sides face outward."},
+      {"room", &kRoomKeys, build_room, "A box whose sides face inward; sides can be left out."},
+      {"grid", &kGridKeys, build_grid, "A quad cut into separate polygons, ID.0, ID.1 ... row by row."},
+      {"disk", &kDiskKeys, build_disk, "A flat polygon of equal sides, its corners on a circle."},
+      {"cylinder", &kCylinderKeys, build_cylinder, "An upright cylinder of flat sides."},
+      {"prism", &kPrismKeys, build_prism, "A polygon pushed along its normal."},
+      {"sphere", &kSphereKeys, build_sphere, "A sphere of flat sides, its corners on the sphere."},
+      {"group", nullptr, build_group, "A list of objects that share a transform and settings."},
+      {"repeat", &kRepeatKeys, build_repeat,
+       "Copies of an object, in rows or by a transform applied again and again."},
   };
   return kRows;
 }
 
 bool require_material(const ShapeInput& input) {
-  if (has(input.object, "material")) return true;
+  if (input.own.material != kNone) return true;
   add_error(input.context.messages, place_of(input.context.tree, input.object.node), "missing-key",
             fmt::format("object '{}' needs a material", escape_text(input.id)));
   return false;
+}
+
+void add_part(const ShapeInput& input, std::string_view part, std::span<const DVec3> corners) {
+  add_polygon(input.scene.outlines, input.object_row, input.id + std::string(part), input.own.material,
+              input.node, corners);
+}
+
+bool read_corners(const Context& context, uint32_t node, std::string_view what, std::vector<DVec3>& corners) {
+  const Tree& tree = context.tree;
+  if (tree.nodes[node].kind != NodeKind::kList) {
+    add_error(context.messages, place_of(tree, node), "expected-list",
+              fmt::format("expected a list of corners for {}, got {}", what, describe(tree, node)));
+    return false;
+  }
+  const uint32_t count = tree.nodes[node].count;
+  if (count < 3) {
+    add_error(context.messages, place_of(tree, node), "too-few-vertices",
+              fmt::format("{} needs at least 3 corners, got {}", what, count));
+    return false;
+  }
+  if (count > kCornersMax) {
+    add_error(context.messages, place_of(tree, node), "too-many-polygons",
+              fmt::format("{} has {} corners, more than the limit of {}", what, count, kCornersMax));
+    return false;
+  }
+  bool good = true;
+  corners.clear();
+  for (uint32_t child = tree.nodes[node].first; child != kNone; child = tree.nodes[child].next) {
+    double number[3] = {0, 0, 0};
+    good = read_three(context, child, "expected-vec3", number) && good;
+    corners.emplace_back(number[0], number[1], number[2]);
+  }
+  return good;
+}
+
+void make_axes(DVec3 normal, DVec3& width, DVec3& height) {
+  const bool along_x = std::abs(normal.x) > 0.999;
+  const DVec3 wish = along_x ? DVec3(0, 0, normal.x > 0 ? -1 : 1) : DVec3(1, 0, 0);
+  width = glm::normalize(wish - normal * glm::dot(wish, normal));
+  height = glm::cross(normal, width);
+}
+
+bool read_direction(const Context& context, const Value& value, DVec3& direction) {
+  const DVec3 given = vec3_of(value);
+  const double largest_part = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+  if (largest_part == 0) {
+    add_error(context.messages, place_of(context.tree, value.node), "zero-axis",
+              "this direction has no length");
+    return false;
+  }
+  direction = glm::normalize(given / largest_part);
+  return true;
 }
 
 }  // namespace patchlight

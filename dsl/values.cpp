@@ -1,6 +1,8 @@
 // Maps of the tree to values, by a table of keys.
 #include "values.h"
 
+#include "expression.h"
+
 #include <fmt/format.h>
 
 #include <cassert>
@@ -118,9 +120,9 @@ bool read_rgb(const Context& context, uint32_t node, const KeyRow& row, Value& v
            check_ranges(context, node, row, value.number);
   // A word is more likely a colour's name than a mistyped number.
   const std::string_view text = text_of(context.tree, node);
-  const bool word =
-      source.kind == NodeKind::kMap || (source.kind == NodeKind::kScalar && !source.quoted &&
-                                        text.find_first_of("0123456789.") == std::string_view::npos);
+  const bool word = source.kind == NodeKind::kMap ||
+                    (source.kind == NodeKind::kScalar && !source.quoted && !is_expression(text) &&
+                     text.find_first_of("0123456789.") == std::string_view::npos);
   if (word) return read_three(context, node, "expected-rgb", value.number);
   if (!read_number(context, node, value.number[0])) return false;
   value.number[1] = value.number[2] = value.number[0];
@@ -148,6 +150,7 @@ bool read_name(const Context& context, uint32_t node, const KeyRow& row) {
 
 // The table's fallback ("0 1 0") as numbers, for keys that are absent.
 void set_fallback(const KeyRow& row, Value& value) {
+  if (row.type == ValueType::kBoolean) value.integer[0] = row.fallback == "true";
   const char* at = row.fallback.data();
   const char* end = at + row.fallback.size();
   int count = 0;

@@ -2,11 +2,20 @@ set(DSL_TEST_SOURCES
   dsl/camera_fit.cpp
   dsl/cut.cpp
   dsl/diagnostics.cpp
+  dsl/expect.cpp
+  dsl/expression.cpp
   dsl/faces.cpp
+  dsl/include.cpp
   dsl/number.cpp
+  dsl/overrides.cpp
   dsl/prescan.cpp
   dsl/settings.cpp
+  dsl/shape_group.cpp
+  dsl/shape_repeat.cpp
+  dsl/shape_round.cpp
   dsl/source.cpp
+  dsl/transform.cpp
   dsl/tree.cpp
+  dsl/variables.cpp
   dsl/wrong_scenes.cpp
 )

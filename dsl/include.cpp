@@ -1,0 +1,151 @@
+// The list `include`. Files are read only below the scene's own folder, and never from a network.
+#include "include.h"
+
+#include "limits.h"
+#include "source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+namespace patchlight {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Reader {
+  const Context& context;
+  Tree& tree;
+  fs::path root_folder;         // canonical
+  int64_t unit = 0;             // choice of `units` in the scene itself
+  std::vector<fs::path> chain;  // files that are being read, canonical, the scene first
+  std::set<std::pair<std::string, std::string>> read;  // canonical path and prefix
+  std::vector<SceneFile> files;
+};
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+// The canonical path of an included file; empty after an error.
+fs::path find_file(const Reader& reader, uint32_t node, const std::string& name) {
+  const auto fail = [&](std::string_view slug, std::string message) {
+    add_error(reader.context.messages, place_of(reader.tree, node), slug, std::move(message));
+    return fs::path{};
+  };
+  const std::string shown = escape_text(name);
+  if (name.find("://") != std::string::npos)
+    return fail("include-not-found",
+                fmt::format("'{}': only files are included, there is no network access", shown));
+  if (fs::path(name).is_absolute())
+    return fail("include-outside-root",
+                fmt::format("'{}': includes are relative, inside the scene's folder", shown));
+  const fs::path folder = reader.chain.back().parent_path();
+  std::error_code error;
+  const fs::path found = fs::weakly_canonical(folder / name, error);
+  if (!error && !is_below(found, reader.root_folder))
+    return fail("include-outside-root", fmt::format("'{}' lies outside of the scene's folder", shown));
+  if (error || !fs::exists(found, error))
+    return fail("include-not-found",
+                fmt::format("no file '{}'; looked in {}", shown, escape_text(folder.string(), 200)));
+  return found;
+}
+
+// Reads and parses a file; kNone after errors.
+uint32_t parse_file(Reader& reader, uint32_t node, const fs::path& path) {
+  Messages& messages = reader.context.messages;
+  const auto file = static_cast<uint32_t>(messages.files.size());
+  try {
+    messages.files.push_back({fs::relative(path, reader.root_folder).string(), read_bytes(path.string())});
+  } catch (const UserError& error) {
+    add_error(messages, place_of(reader.tree, node), error.diagnostics[0].slug, error.diagnostics[0].message);
+    return kNone;
+  }
+  if (!check_source(messages, file)) return kNone;
+  const uint32_t root = parse_tree(messages, file, reader.tree);
+  if (root != kNone && reader.tree.nodes[root].kind != NodeKind::kMap) {
+    add_error(messages, {file, 1, 1}, "root-not-map",
+              fmt::format("an included file is a map, got {}", describe(reader.tree, root)));
+    return kNone;
+  }
+  return root;
+}
+
+// What an included file may not say: it adds to the scene, and leaves its settings alone.
+void check_included(const Reader& reader, const MapValues& map) {
+  for (const std::string_view key : {"camera", "cameras", "solver", "output", "expect"})
+    if (const uint32_t node = value_of(map, key).node; node != kNone)
+      add_error(reader.context.messages, place_of(reader.tree, node), "unknown-key",
+                fmt::format("'{}' belongs into the scene itself, not into a file that it includes", key));
+  const Value& units = value_of(map, "units");
+  if (units.node != kNone && units.integer[0] != reader.unit)
+    add_error(reader.context.messages, place_of(reader.tree, units.node), "bad-unit",
+              "an included file uses the unit of the scene that includes it");
+}
+
+void read_file(Reader& reader, uint32_t root, const std::string& prefix);
+
+void read_entry(Reader& reader, uint32_t entry, const std::string& outer) {
+  std::string name, prefix = outer;
+  uint32_t place = entry;
+  if (reader.tree.nodes[entry].kind == NodeKind::kMap) {
+    const MapValues map = read_map(reader.context, entry, kIncludeKeys);
+    if (!map.good) return;
+    place = value_of(map, "file").node;
+    name = text_of(reader.tree, place);
+    if (has(map, "as")) prefix += std::string(text_of(reader.tree, value_of(map, "as").node)) + ".";
+  } else if (!read_text(reader.context, entry, name)) {
+    return;
+  }
+  const fs::path path = find_file(reader, place, name);
+  if (path.empty()) return;
+  const auto fail = [&](std::string_view slug, std::string message) {
+    add_error(reader.context.messages, place_of(reader.tree, place), slug, std::move(message));
+  };
+  if (std::find(reader.chain.begin(), reader.chain.end(), path) != reader.chain.end()) {
+    std::string chain;
+    for (const fs::path& link : reader.chain) chain += escape_text(link.filename().string()) + " -> ";
+    return fail("include-cycle",
+                fmt::format("files include each other: {}{}", chain, escape_text(path.filename().string())));
+  }
+  if (reader.read.size() >= kIncludesMax || reader.chain.size() > kIncludeDepthMax)
+    return fail("too-many-includes",
+                fmt::format("more than the limit of {} files, {} deep", kIncludesMax, kIncludeDepthMax));
+  if (!reader.read.emplace(path.string(), prefix).second) return;
+  const uint32_t root = parse_file(reader, place, path);
+  if (root == kNone) return;
+  reader.chain.push_back(path);
+  read_file(reader, root, prefix);
+  reader.chain.pop_back();
+}
+
+void read_file(Reader& reader, uint32_t root, const std::string& prefix) {
+  SceneFile file{prefix, read_map(reader.context, root, kSceneKeys)};
+  if (reader.chain.size() == 1)
+    reader.unit = value_of(file.map, "units").integer[0];
+  else
+    check_included(reader, file.map);
+  const uint32_t list = value_of(file.map, "include").node;
+  if (list != kNone && reader.tree.nodes[list].kind == NodeKind::kList)
+    for (uint32_t entry = reader.tree.nodes[list].first; entry != kNone;
+         entry = reader.tree.nodes[entry].next)
+      read_entry(reader, entry, prefix);
+  reader.files.push_back(std::move(file));
+}
+
+}  // namespace
+
+std::vector<SceneFile> read_includes(const Context& context, Tree& tree, uint32_t root,
+                                     const std::string& path) {
+  std::error_code error;
+  const fs::path scene =
+      fs::weakly_canonical(fs::absolute(path == "." ? fs::path("-") : fs::path(path), error), error);
+  Reader reader{context, tree, scene.parent_path(), 0, {scene}, {}, {}};
+  read_file(reader, root, "");
+  return std::move(reader.files);
+}
+
+}  // namespace patchlight

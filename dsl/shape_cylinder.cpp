@@ -1,0 +1,38 @@
+// cylinder: upright walls ID.0, ID.1 ... and, with caps, ID.bottom and ID.top.
+#include "limits.h"
+#include "rings.h"
+#include "shapes.h"
+#include "walls.h"
+
+namespace patchlight {
+namespace {
+
+using enum ValueType;
+
+constexpr KeyRow kRows[] = {
+    {"radius", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Of the circle that its corners lie on."},
+    {"height", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "", "Length along y."},
+    {"at", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Middle of its bottom."},
+    {"sides", kInteger, false, "24", 3, kSidesMax, "out-of-range", "", "Number of walls."},
+    {"caps", kBoolean, false, "true", 0, 0, "", "", "With bottom and top."},
+    {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
+};
+
+}  // namespace
+
+const KeyTable kCylinderKeys = {"cylinder", kRows};
+
+void build_cylinder(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kCylinderKeys);
+  if (!require_material(input) || !map.good) return;
+  // z before x: counter-clockwise seen from above.
+  const std::vector<DVec3> low =
+      make_ring(vec3_of(value_of(map, "at")), DVec3(0, 0, 1), DVec3(1, 0, 0),
+                value_of(map, "radius").number[0], value_of(map, "sides").integer[0]);
+  std::vector<DVec3> high = low;
+  for (DVec3& corner : high) corner.y += value_of(map, "height").number[0];
+  add_walls(input, low, high, value_of(map, "caps").integer[0] != 0, value_of(map, "inward").integer[0] != 0);
+}
+
+}  // namespace patchlight

@@ -1,0 +1,59 @@
+// grid: a quad cut into nx times ny polygons, ID.0, ID.1 ... row by row from its first corner.
+#include "limits.h"
+#include "shapes.h"
+
+#include <fmt/format.h>
+
+namespace patchlight {
+namespace {
+
+using enum ValueType;
+
+constexpr KeyRow kRows[] = {
+    {"size", kVec2, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Width and height. Required with center and normal."},
+    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Middle of the rectangle."},
+    {"normal", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Towards the lit side, any length."},
+    {"origin", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "A corner; then u and v are required."},
+    {"u", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Edge from origin to the next corner."},
+    {"v", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "Edge from origin to the last corner; the lit side is u x v."},
+    {"cells", kIntegers2, true, "", 1, 1e9, "out-of-range", "", "Polygons along the width and the height."},
+};
+
+}  // namespace
+
+const KeyTable kGridKeys = {"grid", kRows};
+
+void build_grid(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kGridKeys);
+  std::array<DVec3, 4> quad;
+  if (!require_material(input) || !map.good || !read_quad(input, map, quad)) return;
+  const int64_t nx = value_of(map, "cells").integer[0], ny = value_of(map, "cells").integer[1];
+  uint64_t count = 0;
+  if (__builtin_mul_overflow(static_cast<uint64_t>(nx * ny), input.context.copies, &count) ||
+      count > kPolygonsMax) {
+    add_error(input.context.messages, place_of(input.context.tree, value_of(map, "cells").node),
+              "too-many-polygons",
+              fmt::format("a grid of {} x {} takes the scene above the limit of {} polygons", nx, ny,
+                          kPolygonsMax));
+    return;
+  }
+  // A point of the lattice is worked out in one way, so that neighbours share its bits.
+  const auto point = [&](int64_t x, int64_t y) {
+    const double u = static_cast<double>(x) / static_cast<double>(nx),
+                 v = static_cast<double>(y) / static_cast<double>(ny);
+    return glm::mix(glm::mix(quad[0], quad[1], u), glm::mix(quad[3], quad[2], u), v);
+  };
+  for (int64_t y = 0; y < ny; ++y)
+    for (int64_t x = 0; x < nx; ++x) {
+      const DVec3 corners[] = {point(x, y), point(x + 1, y), point(x + 1, y + 1), point(x, y + 1)};
+      add_part(input, fmt::format(".{}", y * nx + x), corners);
+    }
+}
+
+}  // namespace patchlight

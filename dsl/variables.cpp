@@ -1,0 +1,124 @@
+// The variables of a scene.
+#include "variables.h"
+
+#include "values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace patchlight {
+
+void read_let(const Context& context, uint32_t node, VariableTable& variables) {
+  const Tree& tree = context.tree;
+  for (uint32_t key = tree.nodes[node].first; key != kNone;) {
+    const uint32_t value = tree.nodes[key].next;
+    const std::string_view word = text_of(tree, key);
+    if (!is_name(word) || word.find('-') != std::string_view::npos)
+      add_error(
+          context.messages, place_of(tree, key), "bad-name",
+          fmt::format(
+              "a variable's name begins with a letter or _ and goes on with letters, digits and _; got '{}'",
+              escape_text(word)));
+    std::string name = context.prefix + std::string(word);
+    const auto [row, is_new] = variables.row_of.emplace(name, static_cast<uint32_t>(variables.size()));
+    if (is_new) {
+      variables.name.push_back(std::move(name));
+      variables.prefix.push_back(context.prefix);
+      variables.node.push_back(value);
+      variables.value.push_back(0);
+      variables.state.push_back(VariableTable::State::kWaiting);
+    } else {
+      add_error(context.messages, place_of(tree, key), "duplicate-id",
+                fmt::format("the variable '{}' is defined by another file too", escape_text(row->first)));
+    }
+    key = tree.nodes[value].next;
+  }
+}
+
+void define_variables(const Context& context, const std::vector<std::string>& definitions) {
+  VariableTable& variables = *context.variables;
+  for (const std::string& definition : definitions) {
+    const size_t equals = std::min(definition.find('='), definition.size());
+    const std::string name = definition.substr(0, equals);
+    const std::string shown = escape_text(definition);
+    double value = 0;
+    const char* begin = definition.data() + std::min(equals + 1, definition.size());
+    const char* end = definition.data() + definition.size();
+    const auto [rest, error] = std::from_chars(begin, end, value);
+    const auto row = variables.row_of.find(name);
+    if (equals == definition.size() || name.empty() || begin == end ||
+        (rest != end && error == std::errc{}) || error == std::errc::invalid_argument) {
+      add_command_line_error(context.messages, "usage", fmt::format("-D {}: expected NAME=NUMBER", shown));
+    } else if (!std::isfinite(value) || error != std::errc{}) {
+      add_command_line_error(context.messages, "non-finite",
+                             fmt::format("-D {}: expected a finite number", shown));
+    } else if (row == variables.row_of.end()) {
+      const std::string near = did_you_mean(name, variables.name);
+      add_command_line_error(context.messages, "undefined-variable",
+                             fmt::format("-D {}: the scene has no variable '{}'{}", shown, escape_text(name),
+                                         near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    } else {
+      variables.value[row->second] = value;
+      variables.state[row->second] = VariableTable::State::kKnown;
+    }
+  }
+}
+
+namespace {
+
+Lookup evaluate_row(const Context& context, uint32_t row, double& value) {
+  using State = VariableTable::State;
+  VariableTable& variables = *context.variables;
+  if (variables.state[row] == State::kBusy) {
+    add_error(context.messages, place_of(context.tree, variables.node[row]), "variable-cycle",
+              fmt::format("'{}' is defined by itself", escape_text(variables.name[row])));
+    variables.state[row] = State::kFailed;
+  }
+  if (variables.state[row] == State::kWaiting) {
+    variables.state[row] = State::kBusy;
+    Context own = context;
+    own.prefix = variables.prefix[row];
+    own.index.fill(std::nullopt);
+    double number = 0;
+    const bool good = read_number(own, variables.node[row], number) && variables.state[row] == State::kBusy;
+    variables.value[row] = number;
+    variables.state[row] = good ? State::kKnown : State::kFailed;
+  }
+  value = variables.value[row];
+  return variables.state[row] == State::kKnown ? Lookup::kFound : Lookup::kFailed;
+}
+
+}  // namespace
+
+void check_variables(const Context& context) {
+  double value = 0;
+  for (uint32_t row = 0; row < context.variables->size(); ++row) evaluate_row(context, row, value);
+}
+
+Lookup find_variable(const Context& context, std::string_view name, double& value) {
+  if (name.size() == 1 && name[0] >= 'i' && name[0] <= 'k') {
+    if (const std::optional<double> index = context.index[static_cast<size_t>(name[0] - 'i')]) {
+      value = *index;
+      return Lookup::kFound;
+    }
+  }
+  if (!context.variables) return Lookup::kUnknown;
+  const auto& rows = context.variables->row_of;
+  auto row = rows.find(context.prefix + std::string(name));
+  if (row == rows.end()) row = rows.find(std::string(name));
+  return row == rows.end() ? Lookup::kUnknown : evaluate_row(context, row->second, value);
+}
+
+std::string undefined_variable_text(const Context& context, std::string_view name) {
+  std::string message =
+      fmt::format("'{0}' is not defined; define it under 'let:' or with -D {0}=...", escape_text(name));
+  if (!context.variables) return message;
+  if (const std::string near = did_you_mean(name, context.variables->name); !near.empty())
+    message = fmt::format("'{}' is not defined; did you mean '{}'?", escape_text(name), near);
+  return message;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,59 @@
+// Variables: order, the command line, repeats.
+#include "dsl/variables.h"
+
+#include "support.h"
+
+#include <doctest/doctest.h>
+
+namespace patchlight::test {
+namespace {
+
+Loaded load_with(const std::string& text, const LoadOptions& options) {
+  Loaded loaded;
+  try {
+    loaded.scene = load_scene_text(text, "t.yaml", loaded.warnings, options);
+  } catch (const UserError& error) {
+    loaded.errors = error.diagnostics;
+  }
+  return loaded;
+}
+
+const std::string kWide = kHead + "  - {quad: {size: [$w, $h]}, material: lamp}\nlet: {h: '=$w*2', w: 3}\n";
+
+TEST_CASE("let may be in any order, and -D is stronger") {
+  const Loaded plain = load(kWide);
+  REQUIRE(plain.errors.empty());
+  CHECK(face_area(plain.scene, 0) == doctest::Approx(18));
+  const Loaded defined = load_with(kWide, {{"w=1"}, {}});
+  REQUIRE(defined.errors.empty());
+  CHECK(face_area(defined.scene, 0) == doctest::Approx(2));
+}
+
+TEST_CASE("definitions that are wrong are mistakes of usage") {
+  const std::pair<const char*, const char*> rows[] = {{"nosuch=3", "undefined-variable"},
+                                                      {"w=nan", "non-finite"},
+                                                      {"w=inf", "non-finite"},
+                                                      {"w=1e999", "non-finite"},
+                                                      {"w", "usage"},
+                                                      {"w=", "usage"},
+                                                      {"=3", "usage"},
+                                                      {"w=3x", "usage"}};
+  for (const auto& [definition, slug] : rows) {
+    CAPTURE(definition);
+    const Loaded loaded = load_with(kWide, {{definition}, {}});
+    REQUIRE(loaded.errors.size() == 1);
+    CHECK(loaded.errors[0].slug == slug);
+    CHECK(exit_code(loaded.errors[0]) == 2);
+    CHECK(loaded.errors[0].line == 0);
+  }
+}
+
+TEST_CASE("mistakes in a variable that nothing uses are told") {
+  const Loaded loaded = load(kBase + "let: {a: '=1/0'}\n");
+  REQUIRE(loaded.errors.size() == 1);
+  CHECK(loaded.errors[0].slug == "non-finite");
+  CHECK(exit_code(loaded.errors[0]) == 3);
+}
+
+}  // namespace
+}  // namespace patchlight::test
