@@ -76,8 +76,9 @@ bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) 
          any_above(patch, lamp.centre, lamp.normal, slack);
 }
 
-// Sixteen points of an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts of their
-// strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or 16 x 16.
+// Sixteen points of an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts of
+// their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or 16
+// x 16.
 struct Points {
   Vec3 point[kPacketSize];
   Vec2 sample[kPacketSize];
@@ -105,7 +106,8 @@ void make_points(Points& points, const FaceFrameTable& frames, const PatchTable&
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
   for (uint32_t k = 0; k < kPacketSize; ++k)
     points.point[k] = face_point(
-        frames, face, cell_sample(triangle, cell, stratified_sample(key, packet, packet_count, k % 4, k / 4, k)));
+        frames, face,
+        cell_sample(triangle, cell, stratified_sample(key, packet, packet_count, k % 4, k / 4, k)));
 }
 
 uint32_t find_buried_points(const Points& points, Vec3 normal, const FaceTable& faces, const Tracer& tracer) {
@@ -141,7 +143,8 @@ void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable,
   uint32_t active = 0;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
-    const Vec2 uv = cell_sample(triangle, whole, stratified_sample(lamp_key, packet, packet_count, column, row, k));
+    const Vec2 uv =
+        cell_sample(triangle, whole, stratified_sample(lamp_key, packet, packet_count, column, row, k));
     const Vec3 target = face_point(frames, lamp.face, uv) + ray_offset(lamp.centre) * lamp.normal;
     const Vec3 origin = points.point[k] + ray_offset(points.point[k]) * normal;
     const Vec3 way = target - origin;
@@ -165,11 +168,12 @@ void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable,
   sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
 }
 
-// Packets of pairs until enough rays agree (there is no shadow edge here then), or all if they do not. `usable`: which
-// of the element's sixteen points, that the exposed share was found from, are not buried.
+// Packets of pairs until enough rays agree (there is no shadow edge here then), or all if they do not.
+// `usable`: which of the element's sixteen points, that the exposed share was found from, are not buried.
 VisibilitySums find_visibility(uint32_t row, uint32_t usable, Vec3 normal, const Lamp& lamp,
-                               const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
-                               const Tracer& tracer, DirectRays rays, uint64_t key) {
+                               const PatchTable& elements, const FaceTable& faces,
+                               const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays,
+                               uint64_t key) {
   VisibilitySums sums;
   Points points;
   const uint32_t packet_count = std::max((rays.mixed + kPacketSize / 2) / kPacketSize, 1u);
@@ -315,16 +319,15 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
           hidden |= bit;
           continue;
         }
-        const float factor =
-            find_mean_factor(elements, frames, row, normal, corners, lamp, points, usable);
+        const float factor = find_mean_factor(elements, frames, row, normal, corners, lamp, points, usable);
         const Rgb emission = faces.emission[lamp.face];
         if (factor == 0) continue;  // the lamp's horizon may still cross a part of the element
         if (settled_seen & bit) {
           irradiance += factor * emission;
           continue;
         }
-        const VisibilitySums sums = find_visibility(row, usable, normal, lamp, elements, faces, frames, tracer,
-                                                    rays, key);
+        const VisibilitySums sums =
+            find_visibility(row, usable, normal, lamp, elements, faces, frames, tracer, rays, key);
         cast += sums.rays;
         const float visible = sums.all > 0 ? sums.seen / sums.all : 0;
         if (sums.reached == sums.rays) seen |= bit;

@@ -34,13 +34,14 @@ struct DirectColumns {
   LampViewTable& views;  // in: what is settled; out: what was seen
 };
 
-// Rays for an element and a lamp: `unmixed` while they agree, up to `mixed` where some reach the lamp and some do not.
+// Rays for an element and a lamp: `unmixed` while they agree, up to `mixed` where some reach the lamp and
+// some do not.
 struct DirectRays {
   uint32_t unmixed = 16, mixed = 64;
 };
 
-// Direct light of the elements `rows`; others are not touched. No rays where a lamp is settled. Returns the number of
-// rays.
+// Direct light of the elements `rows`; others are not touched. No rays where a lamp is settled. Returns the
+// number of rays.
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
                      std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
                      const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays, uint64_t seed);

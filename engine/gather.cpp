@@ -17,6 +17,7 @@ namespace {
 // Only places that send more than this many times the scene's mean are aimed at: elsewhere rows do as well,
 // and where all send alike they are exact.
 constexpr double kBrightOverMean = 2;
+constexpr uint32_t kBlock = 16;  // patches
 
 uint32_t valid_count(const HitTable& hits, size_t row) {
   const auto first = hits.patch.begin() + static_cast<std::ptrdiff_t>(row * hits.ray_count);
@@ -32,15 +33,6 @@ uint32_t find_element(const Elements& elements, uint32_t patch, uint32_t cell) {
   return low;
 }
 
-// Area of the source for each unit of its own parameters, at (u, v) of its face.
-float area_density(const SourceTable& sources, const FaceFrameTable& frames, uint32_t source, Vec2 uv) {
-  const uint32_t face = sources.face[source], level = sources.level[source];
-  if (frames.affine[face]) return sources.area[source];
-  const Vec3 u = frames.edge_u[face] + uv.y * frames.twist[face],
-             v = frames.edge_v[face] + uv.x * frames.twist[face];
-  return length(cross(u, v)) * cell_size(level) * cell_size(level);
-}
-
 // How a patch shares its aimed rays among the sources: by an estimate of what each sends it.
 struct AimShares {
   std::vector<float> share;       // sums to 1
@@ -52,13 +44,14 @@ void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3
   const size_t count = sources.size();
   shares.share.resize(count);
   shares.cumulative.resize(count);
+  const double all = sources.flux_before.empty() ? 1 : sources.flux_before.back();
   for (size_t s = 0; s < count; ++s) {
     const Vec3 way = sources.centre[s] - point;
     const float squared = dot(way, way);
     const float cosines = std::max(dot(way, normal), 0.0f) * std::max(-dot(way, sources.normal[s]), 0.0f);
     // A source that is near is wide in the sky: its strength is bounded by its own size.
     const float bounded = std::max(squared, sources.area[s]);
-    shares.share[s] = sources.share[s] * cosines / (bounded * bounded);
+    shares.share[s] = static_cast<float>(sources.flux[s] / all) * cosines / (bounded * bounded);
   }
   float sum = 0;
   for (size_t s = 0; s < count; ++s) shares.cumulative[s] = sum += shares.share[s];
@@ -105,60 +98,142 @@ float form_factor_kernel(Vec3 way, Vec3 normal, Vec3 source_normal) {
          (kPi * std::max(squared * squared, 1e-30f));
 }
 
-// The part of the aimed rays; the mean over their count.
-Rgb gather_aimed(const PatchPlace& place, const AimShares& shares, const SourceTable& sources,
-                 const Elements& elements, std::span<const Rgb> sent, const FaceTable& faces,
-                 const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed, uint64_t& ray_count) {
-  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowAimed);
+// Points on a source are picked with a density proportional to what is sent from there: per area, once the
+// source is chosen. What lies in a node is rarely lit evenly.
+float find_density(const SourceTable& sources, uint32_t source, const PatchTable& elements, uint32_t element,
+                   std::span<const Rgb> sent) {
+  return static_cast<float>(luminance(sent[element]) * elements.exposed[element] / sources.flux[source]);
+}
+
+struct SourcePoint {
+  uint32_t element;
+  Vec3 place;
+};
+
+SourcePoint pick_source_point(const SourceTable& sources, const PatchTable& elements,
+                              const FaceFrameTable& frames, uint32_t source, Vec2 sample) {
+  // The first coordinate picks the element by its flux; what is left of it is uniform again.
+  const double* flux = sources.flux_before.data();
+  const uint32_t first = sources.element_first[source], last = sources.element_last[source];
+  const double at = flux[first] + double{sample.x} * (flux[last] - flux[first]);
+  const auto element =
+      std::min(static_cast<uint32_t>(std::upper_bound(flux + first, flux + last, at) - flux) - 1, last - 1);
+  const double width = flux[element + 1] - flux[element];
+  const auto rest = static_cast<float>(width > 0 ? (at - flux[element]) / width : 0.5);
+  const uint32_t face = sources.face[source];
+  const bool triangle = frames.triangle[face];
+  const CellFrame cell = make_cell_frame(triangle, elements.cell[element], elements.level[element]);
+  return {element,
+          face_point(frames, face, cell_sample(triangle, cell, {std::min(rest, 0x1.fffffep-1f), sample.y}))};
+}
+
+// Sixteen rays aimed from a patch at its sources, samples index .. index + 15 of `count`.
+struct AimedPacket {
+  RayPacket rays;
+  uint32_t source[kPacketSize], element[kPacketSize];
+  float value[kPacketSize];  // what the target's radiosity counts for if it is seen; 0: no ray
+};
+
+void make_aimed_packet(AimedPacket& packet, const PatchPlace& place, const AimShares& shares,
+                       const SourceTable& sources, const PatchTable& elements, std::span<const Rgb> sent,
+                       const FaceFrameTable& frames, uint64_t key, uint32_t index, uint32_t count) {
   const bool triangle = frames.triangle[place.face];
   const CellFrame cell = make_cell_frame(triangle, place.cell, place.level);
-  const Frame frame = make_frame(place.normal);
-  Rgb sum(0);
-  uint32_t source = 0, usable_count = 0;
-  RayPacket rays;
-  for (uint32_t index = 0; index < place.rays; index += kPacketSize) {
-    float value[kPacketSize];
-    uint32_t target_element[kPacketSize], active = 0;
-    for (uint32_t k = 0; k < kPacketSize; ++k) {
-      const float at =
-          (static_cast<float>(index + k) + make_jitter(key, index + k).x) / static_cast<float>(place.rays);
-      while (shares.cumulative[source] < at) ++source;
-      const AimedSample sample = make_aimed_sample(key, index + k);
-      const uint32_t face = sources.face[source];
-      const bool source_triangle = frames.triangle[face];
-      const Vec2 uv = cell_sample(
-          source_triangle, make_cell_frame(source_triangle, sources.cell[source], sources.level[source]),
-          sample.target);
-      Vec3 origin = face_point(frames, place.face, cell_sample(triangle, cell, sample.origin));
-      origin += ray_offset(origin) * place.normal;
-      Vec3 target = face_point(frames, face, uv);
-      const float kernel = form_factor_kernel(target - origin, place.normal, sources.normal[source]);
-      const float density = shares.share[source] / area_density(sources, frames, source, uv);
-      const float row_density =
-          form_factor_kernel(target - place.centre, place.normal, sources.normal[source]);
-      value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
-      if (value[k] > 0) active |= 1u << k;
-      // The element under the target: a search in the node's rows.
-      const uint32_t code = find_cell(source_triangle, uv);
-      const auto rows_begin = elements.table.cell.begin() + sources.element_first[source];
-      const auto rows_end = elements.table.cell.begin() + sources.element_last[source];
-      target_element[k] =
-          static_cast<uint32_t>(std::upper_bound(rows_begin, rows_end, code) - elements.table.cell.begin()) -
-          1;
-      target += ray_offset(target) * sources.normal[source];
-      const Vec3 way = target - origin;
-      rays.origin_x[k] = origin.x, rays.origin_y[k] = origin.y, rays.origin_z[k] = origin.z;
-      rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
-      rays.near_distance[k] = 0, rays.far_distance[k] = 1;
-    }
-    const uint32_t buried = place.share_valid < 1 ? find_buried(tracer, faces, frame, rays, 0xffff) : 0;
-    usable_count += kPacketSize - static_cast<uint32_t>(std::popcount(buried));
-    active &= ~buried;
+  const float first = (static_cast<float>(index) + make_jitter(key, index).x) / static_cast<float>(count);
+  auto source =
+      static_cast<uint32_t>(std::lower_bound(shares.cumulative.begin(), shares.cumulative.end(), first) -
+                            shares.cumulative.begin());
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float at =
+        (static_cast<float>(index + k) + make_jitter(key, index + k).x) / static_cast<float>(count);
+    while (shares.cumulative[source] < at) ++source;
+    const AimedSample sample = make_aimed_sample(key, index + k);
+    const SourcePoint point = pick_source_point(sources, elements, frames, source, sample.target);
+    Vec3 origin = face_point(frames, place.face, cell_sample(triangle, cell, sample.origin));
+    origin += ray_offset(origin) * place.normal;
+    Vec3 target = point.place;
+    const float kernel = form_factor_kernel(target - origin, place.normal, sources.normal[source]);
+    const float density = shares.share[source] * find_density(sources, source, elements, point.element, sent);
+    const float row_density = form_factor_kernel(target - place.centre, place.normal, sources.normal[source]);
+    packet.value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
+    packet.source[k] = source;
+    packet.element[k] = point.element;
+    target += ray_offset(target) * sources.normal[source];
+    const Vec3 way = target - origin;
+    RayPacket& rays = packet.rays;
+    rays.origin_x[k] = origin.x, rays.origin_y[k] = origin.y, rays.origin_z[k] = origin.z;
+    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
+}
+
+uint32_t find_worthwhile(const AimedPacket& packet) {
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (packet.value[k] > 0 ? 1u : 0u) << k;
+  return active;
+}
+
+// How often rays from a block of patches reach each source: what blocks one patch's view mostly blocks its
+// neighbours'.
+struct SourceViews {
+  std::vector<uint32_t> tried, reached;  // rows are sources
+  void clear(size_t count) { tried.assign(count, 0), reached.assign(count, 0); }
+};
+
+uint64_t probe_sources(SourceViews& views, const PatchPlace& place, const AimShares& shares,
+                       const SourceTable& sources, const PatchTable& elements, std::span<const Rgb> sent,
+                       const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed) {
+  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowAimedProbe);
+  const uint32_t count = std::max(place.rays / 4 / kPacketSize, 1u) * kPacketSize;
+  uint64_t ray_count = 0;
+  AimedPacket packet;
+  for (uint32_t index = 0; index < count; index += kPacketSize) {
+    make_aimed_packet(packet, place, shares, sources, elements, sent, frames, key, index, count);
+    const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(tracer, rays, active);
+    const uint32_t blocked = find_blocked(tracer, packet.rays, active);
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      views.tried[packet.source[k]] += active >> k & 1u;
+      views.reached[packet.source[k]] += (active & ~blocked) >> k & 1u;
+    }
+  }
+  return ray_count;
+}
+
+// Sources that the block hardly sees get fewer rays, but never none: the result stays unbiased.
+void weigh_shares(AimShares& shares, const SourceViews& views) {
+  constexpr float kLeast = 0.05f;
+  float sum = 0;
+  for (size_t s = 0; s < shares.share.size(); ++s) {
+    const float seen =
+        (static_cast<float>(views.reached[s]) + 0.5f) / (static_cast<float>(views.tried[s]) + 1.0f);
+    shares.cumulative[s] = sum += shares.share[s] *= std::max(seen, kLeast);
+  }
+  for (size_t s = 0; s < shares.share.size(); ++s) shares.share[s] /= sum, shares.cumulative[s] /= sum;
+  shares.cumulative.back() = 1;
+}
+
+// The part of the aimed rays; the mean over their count.
+Rgb gather_aimed(const PatchPlace& place, const AimShares& shares, const SourceTable& sources,
+                 const PatchTable& elements, std::span<const Rgb> sent, const FaceTable& faces,
+                 const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed, uint64_t& ray_count) {
+  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowAimed);
+  const Frame frame = make_frame(place.normal);
+  Rgb sum(0);
+  uint32_t usable_count = 0;
+  AimedPacket packet;
+  for (uint32_t index = 0; index < place.rays; index += kPacketSize) {
+    make_aimed_packet(packet, place, shares, sources, elements, sent, frames, key, index, place.rays);
+    const uint32_t buried =
+        place.share_valid < 1 ? find_buried(tracer, faces, frame, packet.rays, 0xffff) : 0;
+    usable_count += kPacketSize - static_cast<uint32_t>(std::popcount(buried));
+    const uint32_t active = find_worthwhile(packet) & ~buried;
+    if (!active) continue;
+    ray_count += static_cast<uint64_t>(std::popcount(active));
+    const uint32_t blocked = find_blocked(tracer, packet.rays, active);
     for (uint32_t k = 0; k < kPacketSize; ++k)
-      if ((active & ~blocked) >> k & 1u) sum += value[k] * sent[target_element[k]];
+      if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * sent[packet.element[k]];
   }
   return usable_count ? sum / static_cast<float>(usable_count) : Rgb(0);
 }
@@ -182,7 +257,8 @@ Rgb gather_row(const PatchPlace& place, const AimShares& shares, const SourceTab
       const Vec2 uv = end.origin + end.size * 0.5f;
       const float kernel = form_factor_kernel(face_point(frames, face, uv) - place.centre, place.normal,
                                               sources.normal[source]);
-      weight = heuristic(kernel, shares.share[source] / area_density(sources, frames, source, uv));
+      weight = heuristic(kernel,
+                         shares.share[source] * find_density(sources, source, elements.table, element, sent));
     }
     sum += weight * sent[element];
   }
@@ -241,11 +317,13 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
 
 SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
                          std::span<const Rgb> sent, uint32_t count) {
-  std::vector<double> flux_before(elements.size() + 1, 0);
+  std::vector<double> flux_before(elements.size() + 1, 0), square_before(elements.size() + 1, 0);
   double area = 0;
   for (size_t row = 0; row < elements.size(); ++row) {
     const double exposed_area = double{elements.area[row]} * elements.exposed[row];
-    flux_before[row + 1] = flux_before[row] + exposed_area * luminance(sent[row]);
+    const double flux = exposed_area * luminance(sent[row]);
+    flux_before[row + 1] = flux_before[row] + flux;
+    square_before[row + 1] = square_before[row] + flux * luminance(sent[row]);
     if (largest(faces.reflectance[elements.face[row]]) > 0) area += exposed_area;
   }
   SourceTable sources;
@@ -294,8 +372,8 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
   });
   const double bright = kBrightOverMean * flux_before.back() / area;
   for (const Node& node : leaves) {
-    const float node_area = cell_area(frames, node.face, node.cell, node.level);
-    if (node.flux <= bright * node_area) continue;
+    // As bright as its light sees it: a thin bright strip makes a large dark node worth aiming at.
+    if (square_before[node.last] - square_before[node.first] <= bright * node.flux) continue;
     sources.face.push_back(node.face);
     sources.cell.push_back(node.cell);
     sources.level.push_back(static_cast<uint8_t>(node.level));
@@ -303,9 +381,10 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
     sources.element_last.push_back(node.last);
     sources.centre.push_back(cell_centre(frames, node.face, node.cell, node.level));
     sources.normal.push_back(faces.normal[node.face]);
-    sources.area.push_back(node_area);
-    sources.share.push_back(static_cast<float>(node.flux / flux_before.back()));
+    sources.area.push_back(cell_area(frames, node.face, node.cell, node.level));
+    sources.flux.push_back(node.flux);
   }
+  sources.flux_before = std::move(flux_before);
   return sources;
 }
 
@@ -318,30 +397,49 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const 
     std::fill(element_source.begin() + sources.element_first[s],
               element_source.begin() + sources.element_last[s], s);
   assert(hits.ray_count % kPacketSize == 0);
+  // Blocks of neighbours on one face share what they learn of the sources.
+  std::vector<uint32_t> block_first;
+  for (uint32_t row = 0; row < patches.size(); ++row)
+    if (row == 0 || patches.face[row] != patches.face[row - 1] || row - block_first.back() == kBlock)
+      block_first.push_back(row);
+  block_first.push_back(static_cast<uint32_t>(patches.size()));
   std::atomic<uint64_t> ray_count{0};
-  for_rows(patches.size(), 32, [&](size_t begin, size_t end) {
-    AimShares shares;
+  for_rows(block_first.size() - 1, 2, [&](size_t begin, size_t end) {
+    std::vector<AimShares> shares(kBlock);
+    SourceViews views;
     uint64_t cast = 0;
-    for (size_t row = begin; row < end; ++row) {
-      const float share_valid =
-          static_cast<float>(valid_count(hits, row)) / static_cast<float>(hits.ray_count);
-      irradiance[row] = Rgb(0);
-      if (share_valid == 0) continue;
-      const uint32_t face = patches.face[row];
-      const PatchPlace place{static_cast<uint32_t>(row),
-                             face,
-                             patches.cell[row],
-                             patches.level[row],
-                             cell_centre(frames, face, patches.cell[row], patches.level[row]),
-                             faces.normal[face],
-                             hits.ray_count,
-                             share_valid};
-      find_shares(shares, sources, place.centre, place.normal);
-      irradiance[row] =
-          gather_row(place, shares, sources, hits, patches, elements, element_source, sent, frames);
-      if (shares.any)
-        irradiance[row] +=
-            gather_aimed(place, shares, sources, elements, sent, faces, frames, tracer, seed, cast);
+    for (size_t block = begin; block < end; ++block) {
+      const auto make_place = [&](uint32_t row) {
+        const uint32_t face = patches.face[row];
+        return PatchPlace{row,
+                          face,
+                          patches.cell[row],
+                          patches.level[row],
+                          cell_centre(frames, face, patches.cell[row], patches.level[row]),
+                          faces.normal[face],
+                          hits.ray_count,
+                          static_cast<float>(valid_count(hits, row)) / static_cast<float>(hits.ray_count)};
+      };
+      views.clear(sources.size());
+      for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
+        const PatchPlace place = make_place(row);
+        AimShares& mine = shares[row - block_first[block]];
+        find_shares(mine, sources, place.centre, place.normal);
+        if (mine.any && place.share_valid > 0)
+          cast += probe_sources(views, place, mine, sources, elements.table, sent, frames, tracer, seed);
+      }
+      for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
+        const PatchPlace place = make_place(row);
+        AimShares& mine = shares[row - block_first[block]];
+        irradiance[row] = Rgb(0);
+        if (place.share_valid == 0) continue;
+        if (mine.any) weigh_shares(mine, views);
+        irradiance[row] =
+            gather_row(place, mine, sources, hits, patches, elements, element_source, sent, frames);
+        if (mine.any)
+          irradiance[row] +=
+              gather_aimed(place, mine, sources, elements.table, sent, faces, frames, tracer, seed, cast);
+      }
     }
     ray_count += cast;
   });

@@ -12,7 +12,7 @@
 namespace patchlight {
 
 // What the samples of a row are for: rows of different purposes are unrelated.
-enum RowPurpose : uint32_t { kRowProbe = 1, kRowHits, kRowDirect, kRowAimed, kRowEmission };
+enum RowPurpose : uint32_t { kRowProbe = 1, kRowHits, kRowDirect, kRowAimed, kRowAimedProbe, kRowEmission };
 
 // Directions of a row: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins
 // take the strata of the other axis, permuted by a lattice: stratum k goes with k * step modulo their number.

@@ -162,7 +162,13 @@ std::vector<uint32_t> all_rows(size_t count) {
   return rows;
 }
 
-// Rays a lamp while the mesh is refined, and once it is final.
+// Rays a lamp on the starting mesh, whose elements may be large beside a spot of light (fewer where lamps are
+// many), while the mesh is refined, and once it is final.
+DirectRays start_rays(const AimTable& aims) {
+  constexpr size_t kRaysAll = 1024;
+  const size_t lamps = aims.lamp.size() / std::max<size_t>(aims.patch_first.size() - 1, 1) + 1;
+  return {static_cast<uint32_t>(std::clamp<size_t>(kRaysAll / lamps, 16, 64)), 64};
+}
 DirectRays round_rays(const SolverSettings& settings) { return {16, std::max(settings.rays / 4, 16u)}; }
 DirectRays final_rays(const SolverSettings& settings) {
   return {std::max(settings.rays / 8, 16u), std::max(settings.rays / 2, 16u)};
@@ -244,8 +250,9 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
   for_rows(s.elements.size(), 512, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row)
       if (marks[row])
-        s.views.settled[row] |= find_settled(s.views, s.elements, s.element_patch, s.aims, s.frames, s.links,
-                                             static_cast<uint32_t>(row));
+        // Not what was settled before: a neighbour may have found light since.
+        s.views.settled[row] = find_settled(s.views, s.elements, s.element_patch, s.aims, s.frames, s.links,
+                                            static_cast<uint32_t>(row));
   });
   std::vector<uint32_t> parent;
   s.elements = split_leaves(s.elements, s.frames, marks, parent);
@@ -309,7 +316,7 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.views.hidden.assign(count, 0);
   s.views.settled.assign(count, 0);
   s.fresh = all_rows(count);
-  find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);
+  find_direct_of(s, s.fresh, faces, tracer, start_rays(s.aims), settings);
   s.seconds.trace += watch.read();
   find_coarse(s, faces);
   find_coarse_radiosity(s, s.fresh, faces);

@@ -2,8 +2,8 @@
 //
 //   Solution solution = make_solution(faces, tracer, settings);
 //   while (refine(solution, faces, tracer, settings)) {}           // rounds, until nothing splits
-//   freeze(solution, faces, tracer, settings);                     // the mesh is final; pictures can be taken
-//   while (solution.passes.size() < wanted) advance(solution, faces, tracer, settings);
+//   freeze(solution, faces, tracer, settings);                     // the mesh is final; pictures can be
+//   taken while (solution.passes.size() < wanted) advance(solution, faces, tracer, settings);
 //
 // The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints.
 #pragma once
@@ -77,8 +77,8 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
 // One refinement round: splits where neighbours differ; false once nothing splits (then nothing has changed).
 bool refine(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 
-// The mesh is final from here on: casts more rays where shadow edges lie, shares out the corners of the elements and
-// sets B = E, before pass 1.
+// The mesh is final from here on: casts more rays where shadow edges lie, shares out the corners of the
+// elements and sets B = E, before pass 1.
 void freeze(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 
 // One pass: adds the next bounce; freezes the mesh if that was not done.

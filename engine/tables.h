@@ -116,8 +116,10 @@ struct SourceTable {
   std::vector<uint32_t> cell;
   std::vector<uint8_t> level;
   std::vector<Vec3> centre, normal;
-  std::vector<float> area;   // lengths squared
-  std::vector<float> share;  // of all the unshot power (luminance)
+  std::vector<float> area;  // lengths squared
+  std::vector<double>
+      flux;  // sent by the exposed area under the node: W/m2 (luminance) times lengths squared
+  std::vector<double> flux_before;  // a row an element and one more: flux of the elements before it
   size_t size() const { return face.size(); }
 };
 
