@@ -16,7 +16,7 @@ namespace {
 
 // Only places that send more than this many times the scene's mean are aimed at: elsewhere rows do as well,
 // and where all send alike they are exact.
-constexpr double kBrightOverMean = 2;
+constexpr double kBrightOverMean = 3;
 constexpr uint32_t kBlock = 16;  // patches
 
 uint32_t valid_count(const HitTable& hits, size_t row) {
