@@ -194,80 +194,113 @@ FaultText fault_text(RingFault fault) {
   }
 }
 
-}  // namespace
+// One polygon of the table, and where to say what is wrong with it.
+struct Subject {
+  Messages& messages;
+  const Tree& tree;
+  const OutlineTable& outlines;
+  uint32_t polygon;
+  uint32_t ring_begin, ring_end;
+  std::vector<uint32_t> kept;  // of each point that copy_ring kept: its number in its ring
 
-bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
-                     FlatPolygon& polygon) {
-  const uint32_t ring_begin = outlines.polygon_first[p], ring_end = outlines.polygon_first[p + 1];
-  const auto report = [&](Place place, std::string_view slug, std::string message) {
-    add_error(messages, place, slug, fmt::format("'{}': {}", escape_text(outlines.id[p]), message));
-    return false;
-  };
-  DVec3 low(outlines.corners[outlines.ring_first[ring_begin]]), high = low;
-  for (uint32_t ring = ring_begin; ring < ring_end; ++ring)
+  Place ring_place(uint32_t ring) const { return place_of(tree, outlines.ring_node[ring_begin + ring]); }
+  Place outline_corner_place(size_t point) const {
+    return corner_place(tree, outlines, ring_begin, kept[point]);
+  }
+};
+
+bool report(const Subject& subject, Place place, std::string_view slug, std::string_view message) {
+  add_error(subject.messages, place, slug,
+            fmt::format("'{}': {}", escape_text(subject.outlines.id[subject.polygon]), message));
+  return false;
+}
+
+// Checks the coordinates and copies the rings. False after coordinate-too-large or zero-area.
+bool copy_rings(Subject& subject, FlatPolygon& polygon) {
+  const OutlineTable& outlines = subject.outlines;
+  DVec3 low(outlines.corners[outlines.ring_first[subject.ring_begin]]), high = low;
+  for (uint32_t ring = subject.ring_begin; ring < subject.ring_end; ++ring)
     for (uint32_t k = outlines.ring_first[ring]; k < outlines.ring_first[ring + 1]; ++k) {
       const DVec3 point = outlines.corners[k];
       if (!(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= kCoordinateMax))
-        return report(corner_place(tree, outlines, ring, k - outlines.ring_first[ring]),
+        return report(subject, corner_place(subject.tree, outlines, ring, k - outlines.ring_first[ring]),
                       "coordinate-too-large",
                       fmt::format("{} is beyond the limit of {:g}", corner_text(point), kCoordinateMax));
       low = glm::min(low, point);
       high = glm::max(high, point);
     }
-  const Place place = place_of(tree, outlines.ring_node[ring_begin]);
   polygon.points.clear();
   polygon.ring_first.assign(1, 0);
   const double largest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(largest_side > 0))
-    return report(place, "zero-area", "all corners are the same point: the polygon has no area");
+    return report(subject, subject.ring_place(0), "zero-area",
+                  "all corners are the same point: the polygon has no area");
   polygon.size = glm::length((high - low) / largest_side) * largest_side;
-  std::vector<uint32_t> kept;  // a point's number in its ring
-  for (uint32_t ring = ring_begin; ring < ring_end; ++ring) {
-    copy_ring(messages, tree, outlines, ring, kRepeated * polygon.size, polygon, kept);
+  for (uint32_t ring = subject.ring_begin; ring < subject.ring_end; ++ring) {
+    copy_ring(subject.messages, subject.tree, outlines, ring, kRepeated * polygon.size, polygon,
+              subject.kept);
     const size_t rings = polygon.ring_count();
     if (polygon.ring_first[rings] - polygon.ring_first[rings - 1] < 3)
-      return report(place_of(tree, outlines.ring_node[ring]), "zero-area",
+      return report(subject, place_of(subject.tree, outlines.ring_node[ring]), "zero-area",
                     fmt::format("fewer than 3 different corners: the {} has no area",
-                                ring > ring_begin ? "hole" : "polygon"));
+                                ring > subject.ring_begin ? "hole" : "polygon"));
   }
+  return true;
+}
+
+bool report_non_planar(const Subject& subject, const FlatPolygon& polygon) {
+  if (const uint32_t ring = ring_off_plane(polygon); ring > 0)
+    return report(
+        subject, subject.ring_place(ring), "non-planar",
+        fmt::format("the hole lies off the polygon's plane by {:.2g} % of its size, the limit is 2 %",
+                    polygon.off_plane * 100));
+  const size_t worst = corner_to_blame(polygon);
+  const auto& first = subject.outlines.ring_first;
+  return report(
+      subject, subject.outline_corner_place(worst), "non-planar",
+      fmt::format("corner {} of {}, {}, is too far off the plane of the others: corners lie up to {:.2g} % "
+                  "of the polygon's size off one plane, the limit is 2 %",
+                  subject.kept[worst] + 1, first[subject.ring_begin + 1] - first[subject.ring_begin],
+                  corner_text(polygon.points[worst]), polygon.off_plane * 100));
+}
+
+// True for triangles and convex quads, the common case, which cannot cross themselves.
+bool is_convex_and_small(const FlatPolygon& polygon) {
+  const size_t count = polygon.flat.size();
+  if (polygon.ring_count() > 1 || count > 4) return false;
+  for (size_t k = 0; k < count; ++k)
+    if (turn(polygon.flat[k], polygon.flat[(k + 1) % count], polygon.flat[(k + 2) % count]) <= 0)
+      return false;
+  return true;
+}
+
+bool check_outline(const Subject& subject, const FlatPolygon& polygon) {
+  if (is_convex_and_small(polygon)) return true;
+  const RingCheck check = check_rings(polygon);
+  if (check.fault == RingFault::kNoFault) return true;
+  const FaultText text = fault_text(check.fault);
+  return report(subject,
+                check.ring == 0 ? subject.outline_corner_place(check.corner) : subject.ring_place(check.ring),
+                text.slug, fmt::format("{}, near {}", text.text, corner_text(polygon.points[check.corner])));
+}
+
+}  // namespace
+
+bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
+                     FlatPolygon& polygon) {
+  Subject subject{messages, tree, outlines, p, outlines.polygon_first[p], outlines.polygon_first[p + 1], {}};
+  if (!copy_rings(subject, polygon)) return false;
+  const Place place = subject.ring_place(0);
   if (!lay_flat(polygon)) {
     // A bow tie has no area by sum, but its corners do not lie on a line.
     if (!is_on_line(polygon))
-      return report(place, "self-intersecting", "the polygon's outline crosses itself");
-    return report(place, "zero-area", "the polygon has no area: its corners lie on a line");
+      return report(subject, place, "self-intersecting", "the polygon's outline crosses itself");
+    return report(subject, place, "zero-area", "the polygon has no area: its corners lie on a line");
   }
-  if (polygon.off_plane > kNonPlanarMax) {
-    if (const uint32_t ring = ring_off_plane(polygon); ring > 0)
-      return report(
-          place_of(tree, outlines.ring_node[ring_begin + ring]), "non-planar",
-          fmt::format("the hole lies off the polygon's plane by {:.2g} % of its size, the limit is 2 %",
-                      polygon.off_plane * 100));
-    const size_t worst = corner_to_blame(polygon);
-    return report(
-        corner_place(tree, outlines, ring_begin, kept[worst]), "non-planar",
-        fmt::format("corner {} of {}, {}, is too far off the plane of the others: corners lie up to {:.2g} % "
-                    "of the polygon's size off one plane, the limit is 2 %",
-                    kept[worst] + 1, outlines.ring_first[ring_begin + 1] - outlines.ring_first[ring_begin],
-                    corner_text(polygon.points[worst]), polygon.off_plane * 100));
-  }
-  const bool simple_quad = polygon.ring_count() == 1 && polygon.points.size() <= 4;
+  if (polygon.off_plane > kNonPlanarMax) return report_non_planar(subject, polygon);
   orient_and_measure(polygon);
-  bool convex = simple_quad;
-  for (size_t k = 0; k < polygon.flat.size() && convex; ++k) {
-    const size_t count = polygon.flat.size();
-    convex = turn(polygon.flat[k], polygon.flat[(k + 1) % count], polygon.flat[(k + 2) % count]) > 0;
-  }
-  if (!convex) {
-    const RingCheck check = check_rings(polygon);
-    if (check.fault != RingFault::kNoFault) {
-      const FaultText text = fault_text(check.fault);
-      const Place where = check.ring == 0 ? corner_place(tree, outlines, ring_begin, kept[check.corner])
-                                          : place_of(tree, outlines.ring_node[ring_begin + check.ring]);
-      return report(where, text.slug,
-                    fmt::format("{}, near {}", text.text, corner_text(polygon.points[check.corner])));
-    }
-  }
-  if (!(polygon.area > kAreaMin)) return report(place, "zero-area", "the polygon has no area");
+  if (!check_outline(subject, polygon)) return false;
+  if (!(polygon.area > kAreaMin)) return report(subject, place, "zero-area", "the polygon has no area");
   if (polygon.off_plane > kFlatMax)
     add_warning(
         messages, place, "non-planar",

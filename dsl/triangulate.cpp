@@ -7,7 +7,8 @@
 namespace patchlight {
 namespace {
 
-constexpr double kEarMin = 1e-14;        // twice an ear's area, in units of size squared: below it is a line
+constexpr double kEarMin = 1e-13;        // twice an ear's area, in units of size squared: below it is a line
+constexpr double kSlopeTie = 1e-9;       // bridges whose slopes differ by less are on one line
 constexpr double kAreaTolerance = 1e-9;  // the triangles' sum against the polygon, share of the area
 
 // A ring of corners, linked both ways. Bridges visit a corner twice: then it has two links.
@@ -50,8 +51,10 @@ uint32_t link_ring(Clipper& clipper, uint32_t ring) {
   return base;
 }
 
+// A little beyond the edges too: a corner on the edge that two ears share must not fall between them by
+// rounding.
 bool in_triangle(DVec2 a, DVec2 b, DVec2 c, DVec2 p) {
-  return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+  return turn(a, b, p) >= -kEarMin && turn(b, c, p) >= -kEarMin && turn(c, a, p) >= -kEarMin;
 }
 
 // True when the direction from `link` to p leaves into the polygon's inside.
@@ -95,8 +98,9 @@ uint32_t find_bridge(const Clipper& clipper, uint32_t hole_link, uint32_t outlin
     const bool covered = p.y < m.y ? in_triangle(p, m, hit, q) : in_triangle(hit, m, p, q);
     if (between && (covered || link == stop)) {
       const double slope = std::abs(p.y - q.y) / (p.x - q.x);
-      if (is_locally_inside(clipper, link, p) &&
-          (slope < flattest || (slope == flattest && q.x > clipper.at(best).x))) {
+      // Of corners on one line the nearer one: a bridge may not run through a corner.
+      const bool nearer = slope < flattest + kSlopeTie && q.x > clipper.at(best).x;
+      if (is_locally_inside(clipper, link, p) && (slope < flattest - kSlopeTie || nearer)) {
         best = link;
         flattest = slope;
       }
@@ -201,10 +205,11 @@ bool triangulate(const FlatPolygon& polygon, std::vector<FaceCorners>& triangles
     // Nothing is an ear any more: what is left is a line, up to rounding.
     const bool forced = refused > left;
     if (forced || is_ear(clipper, link)) {
-      if (twice > 0)
+      if (twice > 0) {
         triangles.push_back({clipper.links[ear.before].point, ear.point, clipper.links[ear.after].point,
                              clipper.links[ear.after].point});
-      area += twice / 2;
+        area += twice / 2;
+      }
       clipper.gone[link] = 1;
       clipper.links[ear.before].after = ear.after;
       clipper.links[ear.after].before = ear.before;

@@ -189,6 +189,34 @@ TEST_CASE("holes by the dozen are bridged") {
   CHECK(sum_of_areas(cut.faces) == doctest::Approx(390 - 25 * 3 * std::sin(std::numbers::pi / 3)));
 }
 
+TEST_CASE("holes in line with each other and with a corner are bridged past the corners between") {
+  const Cut cut = cut_rings_of({{{6.75, 5, 0},
+                                 {3.25, 3.5, 0},
+                                 {5, 7.5, 0},
+                                 {-1.75, 7.25, 0},
+                                 {-6.75, 3.75, 0},
+                                 {-8.5, -5, 0},
+                                 {0.5, -7.5, 0},
+                                 {2, -9.5, 0}},
+                                {{1.5, 2, 0}, {2, 1.5, 0}, {2, 1, 0}},
+                                {{-2.25, 0.5, 0},
+                                 {-2.75, 0.5, 0},
+                                 {-2.5, 0.25, 0},
+                                 {-3.5, 0.25, 0},
+                                 {-3.75, 0.5, 0},
+                                 {-3.5, 1.25, 0},
+                                 {-2, 0.75, 0}},
+                                {{-0.25, 2.5, 0},
+                                 {-0.5, 2, 0},
+                                 {-0.75, 2.5, 0},
+                                 {-1, 2.25, 0},
+                                 {-1.5, 2.5, 0},
+                                 {-1, 3.5, 0},
+                                 {-1, 3.25, 0}}});
+  REQUIRE(cut.good);
+  CHECK(sum_of_areas(cut.faces) == doctest::Approx(159.1875));
+}
+
 TEST_CASE("corners on a straight edge stay corners of faces") {
   const Cut cut = cut_rings_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0.5, 0}, {1, 3, 0}}});
   REQUIRE(cut.good);
