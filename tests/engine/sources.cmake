@@ -1,10 +1,15 @@
 set(ENGINE_TEST_SOURCES
   engine/cell.cpp
+  engine/direct.cpp
+  engine/film.cpp
+  engine/gather.cpp
   engine/lambert.cpp
+  engine/ledger.cpp
   engine/parallel.cpp
   engine/quadtree.cpp
   engine/refine.cpp
   engine/rows.cpp
+  engine/solve.cpp
   engine/tracer.cpp
   engine/vertices.cpp
 )

@@ -1,0 +1,180 @@
+// Rooms in which the form factors matter and the answer is known.
+#include "tests/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+
+using namespace patchlight;
+
+namespace {
+
+// What the project promises for area means of these rooms.
+constexpr double kMeanError = 2e-3;
+
+}  // namespace
+
+// Floor, ceiling and wall. Pass 1: Howell C-11 and C-14; pass 2: integrals of squared Lambert factors; pass
+// 16: a Galerkin solution on 64 x 64 x 6 closed-form factors, extrapolated, within 2e-6.
+TEST_CASE("a cube whose floor emits has the known area means after passes 1, 2 and 16") {
+  struct Expected {
+    float rho;
+    std::array<std::array<double, 3>, 3> means;
+  };
+  constexpr std::array<Expected, 2> kExpected = {{{0.5f,
+                                                   {{{1.0, 0.0999124478491935, 0.10002188803770162},
+                                                     {1.0639377255, 0.1292629496, 0.1391998312},
+                                                     {1.1043589, 0.1712134, 0.1811031}}}},
+                                                  {0.8f,
+                                                   {{{1.0, 0.1598599165587096, 0.16003502086032262},
+                                                     {1.1636805772, 0.2349972009, 0.2603305555},
+                                                     {1.5687392, 0.6422142, 0.6691143}}}}}};
+  constexpr std::array<uint32_t, 3> kPasses = {1, 2, 16};
+  for (const Expected& expected : kExpected) {
+    CAPTURE(expected.rho);
+    FaceTable faces;
+    BoxSurfaces surfaces = make_box_surfaces(make_surface(0, expected.rho));
+    surfaces[kFloor].emission = Rgb(1);
+    add_box_inward(faces, Vec3(0), Vec3(1), surfaces);
+    fit_scene(faces);
+    const SolverSettings settings;
+    Run run = run_scene(faces, settings, 0);
+    for (size_t k = 0; k < 3; ++k) {
+      CAPTURE(kPasses[k]);
+      advance_to(run, faces, settings, kPasses[k]);
+      CHECK(std::abs(mean_radiosity(run.solution, faces, kFloor) - expected.means[k][0]) <= kMeanError);
+      CHECK(std::abs(mean_radiosity(run.solution, faces, kCeiling) - expected.means[k][1]) <= kMeanError);
+      for (const uint32_t wall : {kLeft, kRight, kFront, kBack})
+        CHECK(std::abs(mean_radiosity(run.solution, faces, wall) - expected.means[k][2]) <= kMeanError);
+    }
+  }
+}
+
+TEST_CASE("two open plates: means, and the power that leaves between them") {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, make_surface(1, 0.5f));
+  add_quad(faces, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, make_surface(0, 0.8f));
+  fit_scene(faces);
+  const SolverSettings settings;
+  Run run = run_scene(faces, settings, 1);
+  constexpr double kFactor = 0.199824895698387;  // Howell C-11
+  CHECK(std::abs(mean_radiosity(run.solution, faces, 0) - 1) <= 1e-6);
+  CHECK(std::abs(mean_radiosity(run.solution, faces, 1) - 0.8 * kFactor) <= kMeanError);
+  const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, settings);
+  // Each plate is half of the area 1. What the first plate sends past the second is gone at once.
+  CHECK(ledger.emitted.g == doctest::Approx(0.5).epsilon(1e-6));
+  // 65536 stratified rays: four standard errors of as many random ones are more.
+  const double error = 4 * std::sqrt(kFactor * (1 - kFactor) / 65536);
+  CHECK(std::abs(ledger.escaped.g / ledger.emitted.g - (1 - kFactor)) <= error);
+  // The second plate keeps a fifth of what it gets and has not sent the rest.
+  CHECK(std::abs(ledger.absorbed.g / ledger.emitted.g - 0.2 * kFactor) <= kMeanError);
+  CHECK(std::abs(ledger.unshot.g / ledger.emitted.g - 0.8 * kFactor) <= kMeanError);
+}
+
+TEST_CASE("a spherical cap and its base disc exchange light by their areas alone") {
+  // All that the flat disc sends reaches the cap, so by reciprocity the cap sends A_disc / A_cap back and the
+  // rest to itself. On a sphere, every point of the cap sees equally much of it: both surfaces are uniform.
+  constexpr float kRhoDisc = 0.6f, kRhoCap = 0.4f;
+  double faceting_before = 1;
+  for (const uint32_t stacks : {3u, 6u}) {
+    CAPTURE(stacks);
+    FaceTable faces;
+    const double angle = std::numbers::pi / 3;  // height 0.5 of radius 1
+    const uint32_t slices = 3 * stacks;
+    const uint32_t cap = add_sphere(faces, Vec3(0), 1, stacks, slices, angle, true,
+                                    [&](uint32_t) { return make_surface(1, kRhoCap); });
+    // The rim is the cap's own, bit by bit.
+    std::vector<Vec3> rim;
+    for (uint32_t k = 0; k < slices; ++k) rim.push_back(faces.corners[(stacks - 1) * slices + k][1]);
+    if (cross(rim[0] - Vec3(0, 0.5f, 0), rim[1] - Vec3(0, 0.5f, 0)).y < 0)
+      std::reverse(rim.begin(), rim.end());
+    const uint32_t disc = add_fan(faces, {0, 0.5f, 0}, rim, make_surface(0, kRhoDisc));
+    fit_scene(faces);
+    double cap_area = 0, disc_area = 0;
+    for (uint32_t f = 0; f < faces.size(); ++f)
+      (faces.polygon[f] < disc ? cap_area : disc_area) += face_area(faces, f);
+    const double back = disc_area / cap_area;
+    // Both areas shrink with the corners; their ratio is 0.75 for the sphere.
+    const double faceting = std::abs(back - 0.75);
+    // Second order: half the size, a quarter of the difference.
+    if (stacks > 3) CHECK(faceting < 0.3 * faceting_before);
+    faceting_before = faceting;
+    const SolverSettings settings;
+    Run run = run_scene(faces, settings, 0);
+    double b_disc = 0, b_cap = 1, sent_disc = 0, sent_cap = 1;
+    for (uint32_t pass = 1; pass <= 16; ++pass) {
+      const double to_disc = sent_cap, to_cap = back * sent_disc + (1 - back) * sent_cap;
+      sent_disc = kRhoDisc * to_disc, sent_cap = kRhoCap * to_cap;
+      b_disc += sent_disc, b_cap += sent_cap;
+      if (pass != 1 && pass != 2 && pass != 16) continue;
+      CAPTURE(pass);
+      advance_to(run, faces, settings, pass);
+      // On facets the light is uniform but for terms of the faceting itself.
+      const double error = kMeanError + 0.2 * faceting;
+      CHECK(std::abs(mean_radiosity(run.solution, faces, disc, disc + 1) - b_disc) <= error);
+      CHECK(std::abs(mean_radiosity(run.solution, faces, cap, disc) - b_cap) <= error);
+    }
+  }
+}
+
+TEST_CASE("integrating sphere: light from one cap is the same everywhere else after every pass") {
+  // Sumpner: on a sphere every point sees every area alike, so each bounce adds rho times the mean of the one
+  // before.
+  constexpr float kRho = 0.8f;
+  FaceTable faces;
+  const uint32_t stacks = 16, slices = 24;
+  add_sphere(faces, Vec3(0), 1, stacks, slices, std::numbers::pi, true,
+             [&](uint32_t stack) { return make_surface(stack < 3 ? 1.0f : 0.0f, kRho); });
+  fit_scene(faces);
+  double lit = 0, all = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    all += face_area(faces, f);
+    if (faces.emission[f].g > 0) lit += face_area(faces, f);
+  }
+  // fit_scene made the area 1: a sphere of that area has the facets' volume short of it by this much, and
+  // light that differs from uniform as its facets differ from the sphere.
+  const double faceting =
+      1 - 3 * std::pow(std::cos(std::numbers::pi / slices) * std::cos(std::numbers::pi / 32), 1) / 3;
+  const SolverSettings settings;
+  Run run = run_scene(faces, settings, 0);
+  for (const uint32_t pass : {1u, 2u, 16u}) {
+    CAPTURE(pass);
+    advance_to(run, faces, settings, pass);
+    const double added = lit / all * kRho * (1 - std::pow(kRho, pass)) / (1 - kRho);
+    const double error = kMeanError + 3 * faceting * added;
+    CHECK(std::abs(mean_radiosity(run.solution, faces, 0, 3 * slices) - (1 + added)) <= error);
+    CHECK(std::abs(mean_radiosity(run.solution, faces, 3 * slices, stacks * slices) - added) <= error);
+    // Flux through the whole is exact whatever the facets: sum over bounces of the lit share.
+    CHECK(std::abs(mean_radiosity(run.solution, faces, 0, stacks * slices) - (lit / all + added)) <=
+          kMeanError);
+  }
+}
+
+TEST_CASE("concentric spheres exchange light by their areas alone") {
+  constexpr float kRhoInner = 0.5f, kRhoOuter = 0.7f;
+  FaceTable faces;
+  const uint32_t outer = add_sphere(faces, Vec3(0), 1, 12, 20, std::numbers::pi, true,
+                                    [&](uint32_t) { return make_surface(0, kRhoOuter); });
+  const uint32_t inner = add_sphere(faces, Vec3(0), 0.5f, 12, 20, std::numbers::pi, false,
+                                    [&](uint32_t) { return make_surface(1, kRhoInner); });
+  const uint32_t end = next_polygon(faces);
+  fit_scene(faces);
+  double inner_area = 0, outer_area = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    (faces.polygon[f] < inner ? outer_area : inner_area) += face_area(faces, f);
+  // The inner one is convex: all that it sends reaches the outer one.
+  const double back = inner_area / outer_area;
+  const SolverSettings settings;
+  Run run = run_scene(faces, settings, 0);
+  double b_inner = 1, b_outer = 0, sent_inner = 1, sent_outer = 0;
+  for (uint32_t pass = 1; pass <= 16; ++pass) {
+    const double to_inner = sent_outer, to_outer = back * sent_inner + (1 - back) * sent_outer;
+    sent_inner = kRhoInner * to_inner, sent_outer = kRhoOuter * to_outer;
+    b_inner += sent_inner, b_outer += sent_outer;
+    if (pass != 1 && pass != 2 && pass != 16) continue;
+    CAPTURE(pass);
+    advance_to(run, faces, settings, pass);
+    CHECK(std::abs(mean_radiosity(run.solution, faces, inner, end) - b_inner) <= kMeanError);
+    CHECK(std::abs(mean_radiosity(run.solution, faces, outer, inner) - b_outer) <= kMeanError);
+  }
+}
