@@ -1,7 +1,6 @@
 // The verb check: everything that render does before it takes memory.
 #include "check.h"
 
-#include "dsl/load.h"
 #include "memory.h"
 #include "plan.h"
 
@@ -12,7 +11,7 @@ namespace patchlight {
 int check(const Options& options, Talk& talk) {
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
-  Scene scene = load_scene(options.scene, warnings);
+  Scene scene = load_scene(options.scene, warnings, options.load);
   say_diagnostics(talk, warnings);
   const Plan plan = make_plan(scene, options);
   check_limits(scene, plan);

@@ -33,6 +33,7 @@ constexpr const char* kRenderHelp = R"(Solves a scene and writes pictures, and a
 Examples:
   patchlight render room.yaml                       pictures after passes 1, 2 and 16 into out/
   patchlight render room.yaml --passes 4 --snapshots all --size 640x480
+  patchlight render room.yaml -D w=8 --set solver.threshold=0.05
   patchlight render room.yaml --camera door --exposure -3.5 --mesh
   patchlight render room.yaml --format exr,csv      numbers instead of pictures
   generate_scene | patchlight render - -o lit       a scene from standard input
@@ -101,6 +102,14 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
 // Flags that change what a solve takes: render and check share them.
 void add_solver_flags(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "a scene file; - reads standard input")->type_name("")->required();
+  // One value each time, or they would swallow the scene.
+  app.add_option("-D", options.load.definitions, "NAME=VALUE: a variable of the scene, stronger than its let")
+      ->type_name("")
+      ->allow_extra_args(false);
+  app.add_option("--set", options.load.overrides,
+                 "PATH=VALUE: any value of the scene, such as solver.rays=64")
+      ->type_name("")
+      ->allow_extra_args(false);
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
     options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesMax));
   });

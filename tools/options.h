@@ -1,7 +1,7 @@
 // What the user asked for on the command line, before the scene is known. Empty optionals: the scene decides.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/load.h"
 
 #include <array>
 #include <cstdint>
@@ -21,6 +21,7 @@ struct Options {
   Verb verb = Verb::kPrinted;
   std::string text;
   std::string scene;  // a path, or - for standard input
+  LoadOptions load;   // -D and --set
   std::string out = "out";
   std::optional<uint32_t> passes;
   std::vector<uint32_t> snapshots;  // ascending, no repeats; empty: not asked

@@ -2,7 +2,6 @@
 // asked picture is on its way to its file as soon as its pass is done.
 #include "render.h"
 
-#include "dsl/load.h"
 #include "engine/film.h"
 #include "engine/parallel.h"
 #include "export_report.h"
@@ -248,7 +247,7 @@ int render(const Options& options, Talk& talk) {
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
   Run run(talk);
-  run.scene = load_scene(options.scene, warnings);
+  run.scene = load_scene(options.scene, warnings, options.load);
   say_diagnostics(talk, warnings);
   run.plan = make_plan(run.scene, options);
   check_limits(run.scene, run.plan);

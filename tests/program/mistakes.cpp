@@ -86,6 +86,21 @@ TEST_CASE("mistakes of the command line are on the JSON list too") {
   CHECK(Json::parse(result.out)[0]["slug"] == "usage");
 }
 
+TEST_CASE("-D changes the scene, and a wrong value there ends with 2") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", std::string(kBoxScene) + "let: {n: 1}\nsolver: {passes: $n}\n");
+  const std::vector<std::string> words = {"check", folder / "box.yaml", "--snapshots", "3"};
+  CHECK(run_child(words).exit_code == 3);
+  std::vector<std::string> more = words;
+  more.insert(more.end(), {"-D", "n=3"});
+  CHECK(run_child(more).exit_code == 0);
+  more.back() = "n=.nan";
+  CHECK(run_child(more).exit_code == 2);
+  more.back() = "n=1";
+  more.insert(more.end(), {"--set", "solver.passes=4"});
+  CHECK(run_child(more).exit_code == 0);
+}
+
 TEST_CASE("limits end with 5 and name their number") {
   const Folder folder;
   write_bytes(folder / "box.yaml", kBoxScene);

@@ -65,6 +65,14 @@ TEST_CASE("what is not asked for is left to the scene") {
   CHECK(options.formats == std::vector<std::string>{"png"});
 }
 
+TEST_CASE("-D and --set may be given often, each with one value") {
+  const Options options =
+      parse_command_line({"check", "-D", "w=8", "a.yaml", "-D", "h=-2", "--set", "solver.rays=9"});
+  CHECK(options.scene == "a.yaml");
+  CHECK(options.load.definitions == std::vector<std::string>{"w=8", "h=-2"});
+  CHECK(options.load.overrides == std::vector<std::string>{"solver.rays=9"});
+}
+
 TEST_CASE("words in place of numbers: --snapshots all, --exposure auto") {
   const Options options = parse_command_line({"render", "a.yaml", "--snapshots=all", "--exposure=auto"});
   CHECK(options.snapshots_all);
