@@ -14,18 +14,21 @@
 #include <atomic>
 #include <bit>
 #include <cassert>
+#include <numeric>
 
 namespace patchlight {
 namespace {
 
-// Above this share of its sky a patch leaves lamps to its row: closed rooms in which all emits come out exact
-// then.
+// Above this mean share of its sky a polygon leaves lamps to its rows: closed rooms in which all emits come
+// out exact then.
 constexpr double kLampSkyMax = 0.8;
 // A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at
 // most).
 constexpr float kFarLamp = 0.05f;
 // An element nearer to a lamp than this many of its edges takes the mean of four points.
 constexpr float kNearLamp = 4;
+// Patches of a polygon from which its lamps are ranked.
+constexpr uint32_t kAimProbes = 64;
 
 struct Lamp {
   uint32_t face;
@@ -211,33 +214,62 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   return sum / 4;
 }
 
-}  // namespace
-
-AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
+std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames) {
   std::vector<Lamp> lamps;
   for (uint32_t f = 0; f < faces.size(); ++f)
     if (largest(faces.emission[f]) > 0) lamps.push_back(make_lamp(faces, frames, f));
-  struct Candidate {
-    float strength;
-    uint32_t face;
-  };
-  std::vector<std::vector<uint32_t>> chosen(patches.size());
-  for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
-    std::vector<Candidate> candidates;
-    for (size_t row = begin; row < end; ++row) {
+  return lamps;
+}
+
+// A lamp that could light a polygon, and how strongly.
+struct Candidate {
+  double strength;
+  uint32_t face;
+};
+
+// Lamps that reach any of the patches [first, last) of one polygon; sky: the mean share of its sky that they
+// fill, both from up to kAimProbes patches.
+void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<const Lamp> lamps,
+                     uint32_t first, uint32_t last, const PatchTable& patches, const FaceTable& faces,
+                     const FaceFrameTable& frames) {
+  const uint32_t step = std::max((last - first) / kAimProbes, 1u);
+  candidates.clear();
+  double sky_sum = 0, area_sum = 0;
+  for (uint32_t row = first; row < last; row += step) area_sum += patches.area[row] * patches.exposed[row];
+  for (const Lamp& lamp : lamps) {
+    bool reached = false;
+    for (uint32_t row = first; row < last && !reached; row = patches.face_first[patches.face[row] + 1])
+      reached = lamp.face != patches.face[row] && can_reach(cell_corners(frames, patches.face[row], 0, 0),
+                                                            faces.normal[patches.face[row]], lamp);
+    if (!reached) continue;
+    double seen = 0;
+    for (uint32_t row = first; row < last; row += step) {
       const uint32_t face = patches.face[row];
-      const Vec3 normal = faces.normal[face];
-      if (patches.exposed[row] == 0) continue;
-      const auto corners = cell_corners(frames, face, patches.cell[row], patches.level[row]);
       const Vec3 centre = cell_centre(frames, face, patches.cell[row], patches.level[row]);
-      candidates.clear();
+      seen += patches.area[row] * patches.exposed[row] * find_factor(centre, faces.normal[face], lamp);
+    }
+    sky_sum += seen;
+    candidates.push_back({seen * luminance(faces.emission[lamp.face]), lamp.face});
+  }
+  sky = area_sum > 0 ? sky_sum / area_sum : 0;
+}
+
+}  // namespace
+
+AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
+  assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
+  const std::vector<Lamp> lamps = make_lamps(faces, frames);
+  const uint32_t polygon_count = faces.size() ? faces.polygon.back() + 1 : 0;
+  std::vector<uint32_t> row_first(polygon_count + 1, 0);  // CSR: polygon -> patches
+  for (const uint32_t face : patches.face) ++row_first[faces.polygon[face] + 1];
+  std::partial_sum(row_first.begin(), row_first.end(), row_first.begin());
+  std::vector<std::vector<uint32_t>> chosen(polygon_count);
+  for_rows(polygon_count, 4, [&](size_t begin, size_t end) {
+    std::vector<Candidate> candidates;
+    for (size_t polygon = begin; polygon < end; ++polygon) {
       double sky = 0;
-      for (const Lamp& lamp : lamps) {
-        if (lamp.face == face || !can_reach(corners, normal, lamp)) continue;
-        const float factor = find_factor(centre, normal, lamp);
-        sky += factor;
-        candidates.push_back({factor * luminance(faces.emission[lamp.face]), lamp.face});
-      }
+      find_candidates(candidates, sky, lamps, row_first[polygon], row_first[polygon + 1], patches, faces,
+                      frames);
       if (sky > kLampSkyMax) continue;
       if (candidates.size() > kAimedLampsMax) {
         std::nth_element(candidates.begin(), candidates.begin() + kAimedLampsMax, candidates.end(),
@@ -246,15 +278,15 @@ AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const P
                          });
         candidates.resize(kAimedLampsMax);
       }
-      for (const Candidate& candidate : candidates) chosen[row].push_back(candidate.face);
-      std::sort(chosen[row].begin(), chosen[row].end());
+      for (const Candidate& candidate : candidates) chosen[polygon].push_back(candidate.face);
+      std::sort(chosen[polygon].begin(), chosen[polygon].end());
     }
   });
   AimTable aims;
-  aims.patch_first.push_back(0);
+  aims.polygon_first.push_back(0);
   for (const auto& list : chosen) {
     aims.lamp.insert(aims.lamp.end(), list.begin(), list.end());
-    aims.patch_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
+    aims.polygon_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
   }
   return aims;
 }
@@ -281,22 +313,18 @@ uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
 }
 
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
-                     std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
-                     const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays, uint64_t seed) {
+                     const AimTable& aims, const FaceTable& faces, const FaceFrameTable& frames,
+                     const Tracer& tracer, DirectRays rays, uint64_t seed) {
   assert(out.irradiance.size() == elements.size());
-  std::vector<Lamp> lamps;
+  const std::vector<Lamp> lamps = make_lamps(faces, frames);
   std::vector<uint32_t> lamp_of(faces.size(), kNone);
-  for (uint32_t f = 0; f < faces.size(); ++f)
-    if (largest(faces.emission[f]) > 0) {
-      lamp_of[f] = static_cast<uint32_t>(lamps.size());
-      lamps.push_back(make_lamp(faces, frames, f));
-    }
+  for (uint32_t k = 0; k < lamps.size(); ++k) lamp_of[lamps[k].face] = k;
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
     Points points;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
-      const uint32_t row = rows[r], patch = element_patch[row];
+      const uint32_t row = rows[r], polygon = faces.polygon[elements.face[row]];
       const Vec3 normal = faces.normal[elements.face[row]];
       const uint64_t key = element_key(elements, row, seed);
       const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];
@@ -311,8 +339,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
         usable = 0;
       }
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
-      for (uint32_t k = aims.patch_first[patch]; usable && k < aims.patch_first[patch + 1]; ++k) {
-        const uint64_t bit = uint64_t{1} << (k - aims.patch_first[patch]);
+      for (uint32_t k = aims.polygon_first[polygon]; usable && k < aims.polygon_first[polygon + 1]; ++k) {
+        const uint64_t bit = uint64_t{1} << (k - aims.polygon_first[polygon]);
         const Lamp& lamp = lamps[lamp_of[aims.lamp[k]]];
         if (hidden & bit) continue;
         if (!can_reach(corners, normal, lamp)) {
@@ -347,36 +375,13 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
   return ray_count;
 }
 
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements,
-                      std::span<const uint32_t> element_patch, const AimTable& aims,
-                      const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row) {
-  const uint32_t patch = element_patch[row];
+uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, const FaceFrameTable& frames,
+                      const FaceLinkTable& links, uint32_t row) {
   uint64_t agreed = views.seen[row] | views.hidden[row];
   for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
-    for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
-      if (other == kNone) continue;
-      const uint32_t other_patch = element_patch[other];
-      const uint32_t* mine = aims.lamp.data() + aims.patch_first[patch];
-      const uint32_t* mine_end = aims.lamp.data() + aims.patch_first[patch + 1];
-      const uint32_t* theirs = aims.lamp.data() + aims.patch_first[other_patch];
-      const uint32_t* theirs_end = aims.lamp.data() + aims.patch_first[other_patch + 1];
-      if (std::equal(mine, mine_end, theirs, theirs_end)) {
+    for (const uint32_t other : find_neighbours(elements, frames, links, row, edge))
+      if (other != kNone)
         agreed &= (views.seen[row] & views.seen[other]) | (views.hidden[row] & views.hidden[other]);
-        continue;
-      }
-      // The other patch has a list of its own: walk both, ascending. A lamp that it does not aim at does not
-      // count.
-      const uint32_t* at = theirs;
-      for (const uint32_t* lamp = mine; lamp < mine_end; ++lamp) {
-        while (at < theirs_end && *at < *lamp) ++at;
-        if (at == theirs_end || *at != *lamp) continue;
-        const uint32_t my_bit = static_cast<uint32_t>(lamp - mine),
-                       their_bit = static_cast<uint32_t>(at - theirs);
-        const bool both_see = (views.seen[row] >> my_bit & 1u) && (views.seen[other] >> their_bit & 1u);
-        const bool both_hide = (views.hidden[row] >> my_bit & 1u) && (views.hidden[other] >> their_bit & 1u);
-        if (!both_see && !both_hide) agreed &= ~(uint64_t{1} << my_bit);
-      }
-    }
   return agreed;
 }
 

@@ -1,5 +1,5 @@
-// Direct light on elements from the lamps that their patch aims at: Lambert's formula times a ratio estimate
-// of visibility.
+// Direct light on elements from the lamps that their polygon aims at: Lambert's formula times a ratio
+// estimate of visibility.
 #pragma once
 
 #include "quadtree.h"
@@ -9,14 +9,15 @@
 
 namespace patchlight {
 
-// Which lamps each patch aims at: up to kAimedLampsMax of those that could reach it, the strongest first
-// chosen; none where lamps fill most of its sky, for then its row sees them better.
+// Which lamps each polygon aims at: up to kAimedLampsMax of those that could reach it, the strongest chosen;
+// none where lamps fill most of its sky, for then rows see them better. One list for a whole polygon, so that
+// what its patches leave to their rows is as smooth as the light itself.
 AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches);
 
-// True if patch `patch` aims at lamp `face`: then its row must not count that lamp's emission again.
-inline bool is_aimed(const AimTable& aims, uint32_t patch, uint32_t face) {
-  const auto first = aims.lamp.begin() + aims.patch_first[patch],
-             last = aims.lamp.begin() + aims.patch_first[patch + 1];
+// True if polygon `polygon` aims at lamp `face`: then its rows must not count that lamp's emission again.
+inline bool is_aimed(const AimTable& aims, uint32_t polygon, uint32_t face) {
+  const auto first = aims.lamp.begin() + aims.polygon_first[polygon],
+             last = aims.lamp.begin() + aims.polygon_first[polygon + 1];
   return std::binary_search(first, last, face);
 }
 
@@ -43,13 +44,12 @@ struct DirectRays {
 // Direct light of the elements `rows`; others are not touched. No rays where a lamp is settled. Returns the
 // number of rays.
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
-                     std::span<const uint32_t> element_patch, const AimTable& aims, const FaceTable& faces,
-                     const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays, uint64_t seed);
+                     const AimTable& aims, const FaceTable& faces, const FaceFrameTable& frames,
+                     const Tracer& tracer, DirectRays rays, uint64_t seed);
 
 // Settles lamps for an element that is about to be split: those that it and all its neighbours see whole, or
 // not at all.
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements,
-                      std::span<const uint32_t> element_patch, const AimTable& aims,
-                      const FaceFrameTable& frames, const FaceLinkTable& links, uint32_t row);
+uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, const FaceFrameTable& frames,
+                      const FaceLinkTable& links, uint32_t row);
 
 }  // namespace patchlight

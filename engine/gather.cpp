@@ -274,10 +274,11 @@ void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const AimT
   for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       Rgb sum(0);
+      const uint32_t polygon = faces.polygon[patches.face[row]];
       for (size_t k = row * hits.ray_count; k < (row + 1) * hits.ray_count; ++k) {
         if (hits.patch[k] >= kHitBuried) continue;
         const uint32_t face = patches.face[hits.patch[k]];
-        if (emits[face] && !is_aimed(aims, static_cast<uint32_t>(row), face)) sum += faces.emission[face];
+        if (emits[face] && !is_aimed(aims, polygon, face)) sum += faces.emission[face];
       }
       const uint32_t valid = valid_count(hits, row);
       irradiance[row] = valid ? sum / static_cast<float>(valid) : Rgb(0);

@@ -167,7 +167,7 @@ std::vector<uint32_t> all_rows(size_t count) {
 // many), while the mesh is refined, and once it is final.
 DirectRays start_rays(const AimTable& aims) {
   constexpr size_t kRaysAll = 1024;
-  const size_t lamps = aims.lamp.size() / std::max<size_t>(aims.patch_first.size() - 1, 1) + 1;
+  const size_t lamps = aims.lamp.size() / std::max<size_t>(aims.polygon_first.size() - 1, 1) + 1;
   return {static_cast<uint32_t>(std::clamp<size_t>(kRaysAll / lamps, 16, 64)), 64};
 }
 DirectRays round_rays(const SolverSettings& settings) { return {16, std::max(settings.rays / 4, 16u)}; }
@@ -179,8 +179,8 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable
                     DirectRays rays, const SolverSettings& settings) {
   s.direct_ray_count +=
       find_exposed(s.elements, rows, s.element_patch, s.patches, faces, s.frames, tracer, settings.seed);
-  s.direct_ray_count += find_direct({s.direct, s.direct_error, s.views}, rows, s.elements, s.element_patch,
-                                    s.aims, faces, s.frames, tracer, rays, settings.seed);
+  s.direct_ray_count += find_direct({s.direct, s.direct_error, s.views}, rows, s.elements, s.aims, faces,
+                                    s.frames, tracer, rays, settings.seed);
 }
 
 // All bounces on the patches alone, from the elements' direct light so far: what refinement and exposure go
@@ -252,8 +252,8 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
     for (size_t row = begin; row < end; ++row)
       if (marks[row])
         // Not what was settled before: a neighbour may have found light since.
-        s.views.settled[row] = find_settled(s.views, s.elements, s.element_patch, s.aims, s.frames, s.links,
-                                            static_cast<uint32_t>(row));
+        s.views.settled[row] =
+            find_settled(s.views, s.elements, s.frames, s.links, static_cast<uint32_t>(row));
   });
   std::vector<uint32_t> parent;
   s.elements = split_leaves(s.elements, s.frames, marks, parent);
@@ -489,7 +489,7 @@ uint64_t count_bytes(const Solution& s) {
   };
   const FaceFrameTable& f = s.frames;
   return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.element_first, s.element_patch, s.aims.patch_first, s.aims.lamp,
+               s.links.corner, s.element_first, s.element_patch, s.aims.polygon_first, s.aims.lamp,
                s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct,
                s.direct_error, s.irradiance, s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +

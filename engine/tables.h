@@ -23,7 +23,7 @@ struct FaceTable {
   std::vector<Vec3> normal;           // unit, towards the lit side
   std::vector<Rgb> emission;          // W/m2, >= 0
   std::vector<Rgb> reflectance;       // 0..1
-  std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from
+  std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from; ascending
   std::vector<uint32_t> twin;         // the face back to back with this one (two-sided), or kNone
   std::vector<float> patch_size;      // longest edge of a starting patch on it; 0: as the settings say
   std::vector<uint8_t> level_min;     // it starts at least this often halved
@@ -82,14 +82,15 @@ struct VertexTable {
   size_t size() const { return border.size(); }
 };
 
-// Lamps that each patch aims at (rays from it to points on the lamp). All other emission it meets by its row.
+// Lamps that each polygon aims at (rays from its elements to points on the lamp). All other emission its
+// patches meet by their rows.
 struct AimTable {
-  std::vector<uint32_t> patch_first;  // CSR: patch -> lamps (faces), ascending, at most kAimedLampsMax
+  std::vector<uint32_t> polygon_first;  // CSR: polygon -> lamps (faces), ascending, at most kAimedLampsMax
   std::vector<uint32_t> lamp;
 };
 constexpr size_t kAimedLampsMax = 64;  // as many as fit a 64-bit mask
 
-// What is known of each element's view of the lamps that its patch aims at. Bit k: lamp k of the patch's
+// What is known of each element's view of the lamps that its polygon aims at. Bit k: lamp k of the polygon's
 // list.
 struct LampViewTable {
   std::vector<uint64_t> seen;     // every ray so far reached the lamp
