@@ -153,16 +153,17 @@ TEST_CASE("gather: the stated difference is about the standard error of the row"
   CHECK(squares >= stated / 8);
 }
 
-TEST_CASE("gather: emission that a patch aims at is not counted again by its row") {
+TEST_CASE("gather: emission that a polygon aims at is not counted again by its rows") {
   FaceTable faces = make_box(false);
   faces.emission[kCeiling] = Rgb(2), faces.emission[kLeft] = Rgb(1);
   const Tracer tracer = make_tracer(faces);
   const Room room = make_room(tracer, faces, 1);
-  AimTable none{std::vector<uint32_t>(room.patches.size() + 1, 0), {}}, ceiling = none, both = none;
-  for (uint32_t row = 0; row < room.patches.size(); ++row) {
+  const uint32_t polygon_count = static_cast<uint32_t>(faces.size());
+  AimTable none{std::vector<uint32_t>(polygon_count + 1, 0), {}}, ceiling = none, both = none;
+  for (uint32_t polygon = 0; polygon < polygon_count; ++polygon) {
     ceiling.lamp.push_back(kCeiling);
-    both.lamp.push_back(kCeiling), both.lamp.push_back(kLeft);
-    ceiling.patch_first[row + 1] = row + 1, both.patch_first[row + 1] = 2 * row + 2;
+    both.lamp.push_back(std::min(kCeiling, kLeft)), both.lamp.push_back(std::max(kCeiling, kLeft));
+    ceiling.polygon_first[polygon + 1] = polygon + 1, both.polygon_first[polygon + 1] = 2 * polygon + 2;
   }
   std::vector<Rgb> all(room.patches.size()), left(all), nothing(all);
   gather_emission(all, room.hits, none, room.patches, faces);

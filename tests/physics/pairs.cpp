@@ -181,8 +181,7 @@ Factor find_factor(const Corners& to, const Corners& from, const std::vector<Cor
   const double power = polygon_power(s, faces, 1, 2, element_irradiance(s)).g;
   double rays = 0;
   for (uint32_t row = s.patches.face_first[1]; row < s.patches.face_first[2]; ++row)
-    if (s.aims.patch_first[row] == s.aims.patch_first[row + 1] && s.irradiance[row].g > 0)
-      rays += s.hits.ray_count;
+    if (s.irradiance[row].g > 0) rays += s.hits.ray_count;
   return {power / face_area(faces, 1), rays};
 }
 

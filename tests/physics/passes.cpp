@@ -94,8 +94,7 @@ TEST_CASE("passes are the Neumann series: they tend to the dense solution of the
 }
 
 TEST_CASE("pass 1 is black where no lamp is seen, and pass 2 is not") {
-  // Two rooms joined by nothing but what the first one's wall lights: a partition from floor to ceiling, open
-  // at one end, hides the lamp from the far corner.
+  // A partition from floor to ceiling, open at one end, hides the lamp from the far half of the room.
   FaceTable faces;
   add_box_inward(faces, Vec3(0), {2, 1, 1}, make_box_surfaces(make_surface(0, 0.7f)));
   add_quad(faces, {0.05f, 0.5f, 0.05f}, {0.05f, 0.6f, 0.05f}, {0.05f, 0.6f, 0.15f}, {0.05f, 0.5f, 0.15f},
@@ -106,8 +105,8 @@ TEST_CASE("pass 1 is black where no lamp is seen, and pass 2 is not") {
   fit_scene(faces);
   const SolverSettings settings;
   Run run = run_scene(faces, settings, 1);
-  // From the lamp, light passes the gap to z > 0.9 - (0.9 - 0.15) ... at x = 1 and rises from there: below
-  // the line from the lamp's far edge (0.05, 0.15) through the gap's near edge (1, 0.9) all is dark.
+  // At floor level, all is dark behind the partition below the line from the lamp's far edge (0.05, 0.15)
+  // through the partition's free edge (1, 0.9); the same holds at every height.
   const auto scale = static_cast<float>(1 / std::sqrt(2 * (2 + 2 + 1) + 0.01 + 2 * 0.9));
   size_t dark = 0;
   const auto is_dark_place = [&](size_t row) {
