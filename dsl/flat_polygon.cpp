@@ -2,6 +2,7 @@
 #include "flat_polygon.h"
 
 #include "limits.h"
+#include "plane_check.h"
 #include "ring_check.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@ namespace patchlight {
 namespace {
 
 constexpr double kRepeated = 1e-9;  // corners nearer than this are one, in units of the polygon's size
-constexpr double kAreaMin = 1e-10;  // in units of size squared
-constexpr size_t kBlameMax = 64;    // rings with more corners are not searched for the one to blame
 
 std::string corner_text(DVec3 p) { return fmt::format("[{:g}, {:g}, {:g}]", p.x, p.y, p.z); }
 
@@ -51,53 +50,6 @@ void copy_ring(Messages& messages, const Tree& tree, const OutlineTable& outline
   polygon.ring_first.push_back(static_cast<uint32_t>(polygon.points.size()));
 }
 
-// Newell's normal, its length twice the area, of the points from first to last relative to `origin`, in units
-// of size.
-DVec3 newell(const std::vector<DVec3>& points, size_t first, size_t last, DVec3 origin, double size,
-             size_t skip = ~size_t{0}) {
-  DVec3 sum(0);
-  size_t before = last - 1 == skip ? last - 2 : last - 1;
-  for (size_t k = first; k < last; ++k) {
-    if (k == skip) continue;
-    sum += glm::cross((points[before] - origin) / size, (points[k] - origin) / size);
-    before = k;
-  }
-  return sum;
-}
-
-// The corner of the outline whose absence leaves the flattest rest; among equals the one farthest from that
-// rest.
-size_t corner_to_blame(const FlatPolygon& polygon) {
-  const size_t count = polygon.ring_first[1];
-  size_t worst = 0;
-  double worst_rest = 1e300, worst_distance = 0;
-  for (size_t k = 0; k < count; ++k) {
-    if (count > kBlameMax) {
-      const double distance = std::abs(glm::dot(polygon.points[k] - polygon.origin, polygon.normal));
-      if (distance > worst_distance) worst = k, worst_distance = distance;
-      continue;
-    }
-    const DVec3 normal_sum = newell(polygon.points, 0, count, polygon.origin, polygon.size, k);
-    if (glm::length(normal_sum) < kAreaMin) continue;
-    const DVec3 normal = glm::normalize(normal_sum);
-    DVec3 middle(0);
-    for (size_t j = 0; j < count; ++j)
-      if (j != k) middle += (polygon.points[j] - polygon.origin) / static_cast<double>(count - 1);
-    double rest = 0;
-    for (size_t j = 0; j < count; ++j)
-      if (j != k)
-        rest = std::max(rest, std::abs(glm::dot(polygon.points[j] - polygon.origin - middle, normal)));
-    const double distance = std::abs(glm::dot(polygon.points[k] - polygon.origin - middle, normal));
-    const double tie = 1e-9 * polygon.size;
-    if (rest < worst_rest - tie || (rest < worst_rest + tie && distance > worst_distance)) {
-      worst = k;
-      worst_rest = rest;
-      worst_distance = distance;
-    }
-  }
-  return worst;
-}
-
 // The plane of the outline, and all points on it. False when the outline has no area.
 bool lay_flat(FlatPolygon& polygon) {
   const size_t outline_count = polygon.ring_first[1];
@@ -126,31 +78,6 @@ bool lay_flat(FlatPolygon& polygon) {
     polygon.off_plane = std::max(polygon.off_plane, std::abs(glm::dot(offset, polygon.normal)));
   }
   return true;
-}
-
-// True when all corners of the outline lie on one line.
-bool is_on_line(const FlatPolygon& polygon) {
-  const DVec3 first = polygon.points[0];
-  DVec3 far(0);
-  for (const DVec3& point : polygon.points)
-    if (glm::length(point - first) > glm::length(far)) far = point - first;
-  const DVec3 along = glm::normalize(far / polygon.size);
-  for (const DVec3& point : polygon.points)
-    if (glm::length(glm::cross((point - first) / polygon.size, along)) > kAreaMin) return false;
-  return true;
-}
-
-// The ring of the corner that is farthest off the plane.
-uint32_t ring_off_plane(const FlatPolygon& polygon) {
-  uint32_t worst_ring = 0;
-  double worst = 0;
-  for (uint32_t ring = 0; ring < polygon.ring_count(); ++ring)
-    for (uint32_t k = polygon.ring_first[ring]; k < polygon.ring_first[ring + 1]; ++k) {
-      const double distance =
-          std::abs(glm::dot((polygon.points[k] - polygon.origin) / polygon.size, polygon.normal));
-      if (distance > worst) worst = distance, worst_ring = ring;
-    }
-  return worst_ring;
 }
 
 // Turns holes clockwise, and sums area and centroid over all rings.
