@@ -63,7 +63,9 @@ CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& mate
     cut.faces.clear();
     DVec3 normal(0);
     if (flatten_polygon(messages, tree, outlines, p, flat)) {
-      const DRgb emission = materials.emission[outlines.material[p]];
+      // No material: an error was reported, and the polygon is only checked.
+      const uint32_t material = outlines.material[p];
+      const DRgb emission = material == kNone ? DRgb(0) : materials.emission[material];
       if (!cut_polygon(flat, std::max({emission.r, emission.g, emission.b}) > 0, cut))
         add_error(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]),
                   "self-intersecting",
