@@ -15,15 +15,16 @@ constexpr KeyRow kSceneRows[] = {
     {"patchlight", kInteger, false, "", 1, 1e9, "out-of-range", "", "Version of the language: 1. Required."},
     {"title", kText, false, "", 0, 0, "", "", "What the scene is called."},
     {"units", kChoice, false, "m", 0, 0, "bad-unit", "m|cm|mm|ft|in", "Unit of all lengths in the file."},
-    {"let", kMap, false, "", 0, 0, "", "", "Variables by name: numbers or expressions, in any order."},
-    {"include", kList, false, "", 0, 0, "", "", "Files whose variables, materials and objects are added."},
-    {"materials", kMap, false, "", 0, 0, "", "", "Materials by name."},
-    {"objects", kList, false, "", 0, 0, "", "", "The things in the scene. Required."},
-    {"camera", kMap, false, "", 0, 0, "", "", "The camera, where one is enough."},
-    {"cameras", kList, false, "", 0, 0, "", "", "Several cameras, each with a name."},
-    {"solver", kMap, false, "", 0, 0, "", "", "How the light is computed."},
-    {"output", kMap, false, "", 0, 0, "", "", "What the pictures look like."},
-    {"expect", kList, false, "", 0, 0, "", "", "Radiosities that the solution is checked against."},
+    {"let", kMap, false, "", 0, 0, "", "*", "Variables by name: numbers or expressions, in any order."},
+    {"include", kList, false, "", 0, 0, "", "include",
+     "Files whose variables, materials and objects are added."},
+    {"materials", kMap, false, "", 0, 0, "", "*material", "Materials by name."},
+    {"objects", kList, false, "", 0, 0, "", "object", "The things in the scene. Required."},
+    {"camera", kMap, false, "", 0, 0, "", "camera", "The camera, where one is enough."},
+    {"cameras", kList, false, "", 0, 0, "", "camera", "Several cameras, each with a name."},
+    {"solver", kMap, false, "", 0, 0, "", "solver", "How the light is computed."},
+    {"output", kMap, false, "", 0, 0, "", "output", "What the pictures look like."},
+    {"expect", kList, false, "", 0, 0, "", "expect", "Radiosities that the solution is checked against."},
 };
 
 constexpr KeyRow kIncludeRows[] = {
@@ -33,7 +34,7 @@ constexpr KeyRow kIncludeRows[] = {
 
 constexpr KeyRow kTransformRows[] = {
     {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "", "Shift by [x, y, z]."},
-    {"rotate", kMap, false, "", 0, 0, "", "", "Turn about an axis through the origin: {axis, angle}."},
+    {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn about an axis through the origin: {axis, angle}."},
     {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]; negative ones mirror."},
 };
 
@@ -100,10 +101,11 @@ constexpr KeyRow kSharedObjectRows[] = {
     {"id", kName, false, "", 0, 0, "bad-id", "", "Name of the object. Absent: object1, object2 ..."},
     {"material", kText, false, "", 0, 0, "", "", "Name of its material."},
     {"holes", kList, false, "", 0, 0, "", "", "With polygon: lists of corners, each one a hole."},
-    {"transform", kList, false, "", 0, 0, "", "", "Steps in order, each one of translate, rotate, scale."},
+    {"transform", kList, false, "", 0, 0, "", "transform",
+     "Steps in order, each one of translate, rotate, scale."},
     {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "Shift, after scale and rotate."},
-    {"rotate", kMap, false, "", 0, 0, "", "", "Turn, after scale: {axis, angle}."},
+    {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn, after scale: {axis, angle}."},
     {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]."},
     {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
     {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
@@ -120,6 +122,7 @@ std::span<const KeyRow> object_rows() {
       KeyRow row;
       row.key = shape.name;
       row.type = kAny;
+      if (shape.keys) row.choices = shape.keys->name;
       row.description = shape.description;
       all.push_back(row);
     }

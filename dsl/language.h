@@ -21,7 +21,7 @@ enum class ValueType : uint8_t {
   kVec3,       // [x, y, z], each within low..high
   kRgb,        // a number or [r, g, b], each within low..high
   kList,       // a list that its own reader goes through
-  kMap,        // a map with keys of its own (see `choices` for its table)
+  kMap,        // a map with keys of its own
   kAny,        // left to its own reader
 };
 
@@ -37,7 +37,8 @@ struct KeyRow {
   double low = -kAnyNumber;   // least and largest value
   double high = kAnyNumber;
   std::string_view slug;     // of the error beyond them, and of a wrong choice
-  std::string_view choices;  // kChoice: a|b|c
+  std::string_view choices;  // kChoice: a|b|c; maps and lists: the name of their (items') table, *NAME for a
+                             // map of free names to such maps, * for one of free names to plain values
   std::string_view description;
 };
 

@@ -15,8 +15,8 @@ constexpr KeyRow kRows[] = {
     {"count", kAny, true, "", 1, 1e15, "out-of-range", "", "How many: n, or [nx, ny, nz]."},
     {"step", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "From one copy to the next: along each axis where count is a list, else as a whole."},
-    {"transform", kList, false, "", 0, 0, "", "", "Instead of step: copy i has it applied i times."},
-    {"of", kMap, true, "", 0, 0, "", "", "The object; $i ($j, $k) in it is the copy's index, from 0."},
+    {"transform", kList, false, "", 0, 0, "", "transform", "Instead of step: copy i has it applied i times."},
+    {"of", kMap, true, "", 0, 0, "", "object", "The object; $i ($j, $k) in it is the copy's index, from 0."},
 };
 
 struct Counts {

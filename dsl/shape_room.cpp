@@ -14,7 +14,7 @@ constexpr KeyRow kRows[] = {
     {"at", ValueType::kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "The low corner."},
     {"omit", ValueType::kList, false, "", 0, 0, "", "",
      "Sides that are left out: floor, ceiling, left, right, front, back."},
-    {"walls", ValueType::kMap, false, "", 0, 0, "", "", "Materials by side, where not the object's."},
+    {"walls", ValueType::kMap, false, "", 0, 0, "", "*", "Materials by side, where not the object's."},
 };
 
 // The number of the side that a scalar names; reports `slug` and returns the count of sides otherwise.

@@ -6,6 +6,7 @@ set(DSL_TEST_SOURCES
   dsl/expression.cpp
   dsl/faces.cpp
   dsl/include.cpp
+  dsl/language.cpp
   dsl/number.cpp
   dsl/overrides.cpp
   dsl/prescan.cpp
