@@ -25,8 +25,11 @@ constexpr double kLampSkyMax = 0.8;
 // A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at
 // most).
 constexpr float kFarLamp = 0.05f;
-// An element nearer to a lamp than this many of its edges takes the mean of four points.
-constexpr float kNearLamp = 4;
+// An element nearer to a lamp than this many of its edges takes its mean factor by Gauss's rule, not at its
+// centre.
+constexpr float kNearLamp = 40;
+// So many lamps, the most powerful ones, may be aimed at: ranking them costs polygons times lamps.
+constexpr size_t kLampsRankedMax = 512;
 // Patches of a polygon from which its lamps are ranked.
 constexpr uint32_t kAimProbes = 64;
 
@@ -190,7 +193,7 @@ VisibilitySums find_visibility(uint32_t row, uint32_t usable, Vec3 normal, const
   return sums;
 }
 
-// The element's mean unoccluded factor: at its centre, at four points if the lamp is near, at its exposed
+// The element's mean unoccluded factor: at its centre, by Gauss's rule if the lamp is near, at its exposed
 // points if part of it is buried.
 float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames, uint32_t row, Vec3 normal,
                        const std::array<Vec3, 4>& corners, const Lamp& lamp, const Points& points,
@@ -204,14 +207,19 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   const uint32_t face = elements.face[row];
   const Vec3 centre = cell_centre(frames, face, elements.cell[row], elements.level[row]);
   const float gap = distance(centre, lamp.centre) - 0.5f * lamp.diameter;
-  if (gap > kNearLamp * longest_edge(corners) || elements.level[row] >= kLevelMax - 1)
-    return find_factor(centre, normal, lamp);
+  if (gap > kNearLamp * longest_edge(corners)) return find_factor(centre, normal, lamp);
+  // Points of Gauss's rules: four on a square, exact to the third degree; three on a triangle, to the second.
+  constexpr float kLow = 0.21132487f, kHigh = 0.78867513f, kSixth = 1 / 6.0f, kTwoThirds = 2 / 3.0f;
+  constexpr float kSquare[4][2] = {{kLow, kLow}, {kHigh, kLow}, {kLow, kHigh}, {kHigh, kHigh}};
+  constexpr float kTriangle[3][2] = {{kSixth, kSixth}, {kTwoThirds, kSixth}, {kSixth, kTwoThirds}};
+  const bool triangle = frames.triangle[face];
+  const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
   float sum = 0;
-  for (uint32_t child = 0; child < 4; ++child)
-    sum += find_factor(cell_centre(frames, face, elements.cell[row] | child << (30 - 2 * elements.level[row]),
-                                   elements.level[row] + 1u),
-                       normal, lamp);
-  return sum / 4;
+  for (const auto& point :
+       triangle ? std::span<const float[2]>(kTriangle) : std::span<const float[2]>(kSquare))
+    sum += find_factor(face_point(frames, face, cell.origin + cell.size * Vec2(point[0], point[1])), normal,
+                       lamp);
+  return sum / (triangle ? 3.0f : 4.0f);
 }
 
 std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames) {
@@ -258,7 +266,17 @@ void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<
 
 AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
   assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
-  const std::vector<Lamp> lamps = make_lamps(faces, frames);
+  std::vector<Lamp> lamps = make_lamps(faces, frames);
+  if (lamps.size() > kLampsRankedMax) {
+    const auto power = [&](const Lamp& lamp) {
+      return double{lamp.area} * luminance(faces.emission[lamp.face]);
+    };
+    std::nth_element(lamps.begin(), lamps.begin() + kLampsRankedMax, lamps.end(),
+                     [&](const Lamp& a, const Lamp& b) {
+                       return power(a) != power(b) ? power(a) > power(b) : a.face < b.face;
+                     });
+    lamps.resize(kLampsRankedMax);
+  }
   const uint32_t polygon_count = faces.size() ? faces.polygon.back() + 1 : 0;
   std::vector<uint32_t> row_first(polygon_count + 1, 0);  // CSR: polygon -> patches
   for (const uint32_t face : patches.face) ++row_first[faces.polygon[face] + 1];

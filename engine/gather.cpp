@@ -367,7 +367,8 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
       first = last;
     }
   }
-  for (; !queue.empty(); queue.pop()) leaves.push_back(queue.top());
+  // Of thousands of lit faces the strongest are kept; the rest is left to rows.
+  for (; !queue.empty() && leaves.size() < 2 * count; queue.pop()) leaves.push_back(queue.top());
   std::sort(leaves.begin(), leaves.end(), [](const Node& a, const Node& b) {
     return a.face != b.face ? a.face < b.face : a.cell < b.cell;
   });

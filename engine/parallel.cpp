@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <latch>
 #include <memory>
+#include <system_error>
+#include <thread>
 
 namespace patchlight {
 namespace {
@@ -32,6 +35,16 @@ void for_rows(size_t count, size_t grain, const std::function<void(size_t, size_
 void sort_keys(std::vector<uint64_t>& keys) { tbb::parallel_sort(keys.begin(), keys.end()); }
 
 size_t set_thread_count(size_t count) {
+  // Where the system refuses a thread, oneTBB would end the process: try first.
+  std::vector<std::thread> probes;
+  std::latch all(1);
+  try {
+    while (probes.size() + 1 < count) probes.emplace_back([&] { all.wait(); });
+  } catch (const std::system_error&) {
+    count = probes.size() + 1;
+  }
+  all.count_down();
+  for (std::thread& probe : probes) probe.join();
   thread_limit.reset();
   thread_limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                        std::max<size_t>(count, 1));

@@ -148,7 +148,7 @@ PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
   std::vector<uint8_t> levels(faces.size());
   leaves.face_first.assign(faces.size() + 1, 0);
   for (uint32_t f = 0; f < faces.size(); ++f) {
-    levels[f] = static_cast<uint8_t>(std::min(level_of(f), kLevelMax));
+    levels[f] = static_cast<uint8_t>(std::min(level_of(f), kLevelMax - 1));
     leaves.face_first[f + 1] = leaves.face_first[f] + (1u << 2 * levels[f]);
   }
   const size_t count = leaves.face_first.back();

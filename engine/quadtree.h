@@ -13,7 +13,8 @@ namespace patchlight {
 // nothing (the loader cuts them so); coinciding corners must be equal bit by bit.
 FaceLinkTable make_face_links(const FaceTable& faces);
 
-// Leaves of `level_of(face)` on every face, not yet balanced. Radiosity columns start at the face's emission.
+// Leaves of `level_of(face)` (at most kLevelMax - 1) on every face, not yet balanced. Radiosity columns start
+// at the face's emission.
 PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
                        const std::function<uint32_t(uint32_t)>& level_of);
 

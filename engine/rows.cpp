@@ -109,12 +109,18 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
 
 uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& frame, const RayPacket& rays,
                      uint32_t active) {
-  // Along the normal, then at 60 degrees to it on three sides.
-  constexpr float kSine = 0.8660254f, kCosine = 0.5f;
-  constexpr float kAround[4][3] = {{0, 0, 1},
-                                   {kSine, 0, kCosine},
-                                   {-0.5f * kSine, 0.8660254f * kSine, kCosine},
-                                   {-0.5f * kSine, -0.8660254f * kSine, kCosine}};
+  // Along the normal, at 60 degrees to it on three sides, at 82 degrees on three more: what lies under a
+  // sheet sees out at its sides.
+  constexpr float kTurnCosine = -0.5f, kTurnSine = 0.8660254f;
+  constexpr float kSteepSine = 0.8660254f, kSteepCosine = 0.5f, kFlatSine = 0.9902681f,
+                  kFlatCosine = 0.1391731f;
+  constexpr float kAround[7][3] = {{0, 0, 1},
+                                   {kSteepSine, 0, kSteepCosine},
+                                   {kTurnCosine * kSteepSine, kTurnSine * kSteepSine, kSteepCosine},
+                                   {kTurnCosine * kSteepSine, -kTurnSine * kSteepSine, kSteepCosine},
+                                   {-kFlatSine, 0, kFlatCosine},
+                                   {-kTurnCosine * kFlatSine, kTurnSine * kFlatSine, kFlatCosine},
+                                   {-kTurnCosine * kFlatSine, -kTurnSine * kFlatSine, kFlatCosine}};
   for (const auto& local : kAround) {
     if (!active) break;
     const Vec3 direction = local[0] * frame.tangent + local[1] * frame.bitangent + local[2] * frame.normal;

@@ -30,7 +30,7 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
                      uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet);
 
 // Of the rays' origins (points just off the face with this frame), those that lie inside a solid: from there
-// only back sides are seen, along the normal and in three directions about it.
+// only back sides are seen, along the normal and in six directions about it.
 uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& frame, const RayPacket& rays,
                      uint32_t active);
 

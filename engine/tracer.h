@@ -44,7 +44,7 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active);
 // Which of the rays of `active` are blocked before far_distance: a bit a ray.
 uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active);
 
-// The versions of Embree and its instruction sets, for --version.
+// The name and version of the library, for --version.
 const char* tracer_version();
 
 }  // namespace patchlight
