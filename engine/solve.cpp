@@ -27,6 +27,7 @@ namespace {
 constexpr float kPatchSize = 1 / 30.0f;
 // Of the starting patch size.
 constexpr float kPatchSizeMin = 1 / 64.0f;
+constexpr float kLargeElement = 6;  // least sizes
 constexpr uint32_t kSourceCount = 400;
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
@@ -227,14 +228,19 @@ void find_mean_radiosity(Solution& s, const FaceTable& faces) {
 }
 
 // Standard errors of the elements' coarse radiosities. A difference between two elements of one patch holds
-// only their share of the surface's slope, and with it of the rows' noise.
-std::vector<float> find_errors(const Solution& s, const FaceTable& faces) {
+// only their share of the surface's slope, and with it of the rows' noise. The noise of direct light counts
+// for small elements only: light that few rays found on a large one is a discovery, and splitting tells what
+// it is.
+std::vector<float> find_errors(const Solution& s, const FaceTable& faces, float patch_size_min) {
   std::vector<float> error(s.elements.size());
   for_rows(error.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       const uint32_t patch = s.element_patch[row];
       const float slope = s.coarse_error[patch] * cell_size(s.elements.level[row] - s.patches.level[patch]);
-      error[row] = largest(faces.reflectance[s.elements.face[row]]) * std::hypot(s.direct_error[row], slope);
+      const float edge = longest_edge(
+          cell_corners(s.frames, s.elements.face[row], s.elements.cell[row], s.elements.level[row]));
+      const float direct = edge > kLargeElement * patch_size_min ? 0 : s.direct_error[row];
+      error[row] = largest(faces.reflectance[s.elements.face[row]]) * std::hypot(direct, slope);
     }
   });
   return error;
@@ -331,10 +337,11 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   assert(!s.frozen);
   Stopwatch watch, whole;
   const uint64_t rays_before = s.direct_ray_count;
-  const std::vector<float> error = find_errors(s, faces);
+  const float patch_size_min = find_patch_sizes(faces, s.frames, settings).least;
+  const std::vector<float> error = find_errors(s, faces, patch_size_min);
   const std::vector<uint8_t> marks =
       mark_differing({s.elements, error, s.fresh, s.mean_radiosity}, s.frames, s.links, settings.threshold,
-                     find_patch_sizes(faces, s.frames, settings).least, settings.patch_count_max);
+                     patch_size_min, settings.patch_count_max);
   const auto split_count = static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1));
   if (split_count == 0) {
     s.seconds.split += watch.read();
