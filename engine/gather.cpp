@@ -64,7 +64,9 @@ void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3
 // Power heuristic: the weight of a sample drawn with density `own` against the other way to draw it. Both
 // ways take the densities from the patch's centre, whatever point of it a ray starts from: weights need only
 // sum to one.
-float heuristic(float own, float other) { return own * own / (own * own + other * other); }
+float heuristic(float own, float other) {
+  return own > 0 ? own * own / (own * own + other * other) : 0;  // dark places may have no density either way
+}
 
 // A sequence that fills four dimensions evenly (Roberts: The Unreasonable Effectiveness of Quasirandom
 // Sequences, 2018): consecutive samples, which go to one source or to neighbours, cover origin and target

@@ -45,6 +45,10 @@ void collect_brightness(std::vector<float>& brightness, const FilmTable& film, s
     const bool shows_scene = film.pixel_first[pixel] != film.pixel_first[pixel + 1];
     if (shows_scene && lamp_share[pixel].r <= 0) brightness.push_back(largest(pixels[pixel]));
   }
+  if (!brightness.empty()) return;
+  // Where all that is seen emits, the lamps are the picture.
+  for (size_t pixel = 0; pixel < pixels.size(); ++pixel)
+    if (film.pixel_first[pixel] != film.pixel_first[pixel + 1]) brightness.push_back(largest(pixels[pixel]));
 }
 
 double pick_exposure_ev(std::span<float> brightness) {

@@ -8,8 +8,9 @@
 
 namespace patchlight {
 
-// Appends the brightness (largest channel, W/m2) of every pixel that shows the scene but no lamp; `values`
-// are what the film was made for (smooth: vertices of the elements; else elements), W/m2.
+// Appends the brightness (largest channel, W/m2) of every pixel that shows the scene but no lamp, or, where
+// all that is seen are lamps, of every pixel that shows the scene; `values` are what the film was made for
+// (smooth: vertices of the elements; else elements), W/m2.
 void collect_brightness(std::vector<float>& brightness, const FilmTable& film, std::span<const Rgb> values,
                         const Solution& solution, const FaceTable& faces, bool smooth);
 

@@ -47,7 +47,7 @@ int report_user_error(const UserError& error, Talk& talk) {
   if (error.more > 0 && !talk.json) say(talk, fmt::format("{} more errors", error.more));
   const auto first = std::find_if(error.diagnostics.begin(), error.diagnostics.end(),
                                   [](const Diagnostic& d) { return d.severity == Severity::kError; });
-  return first == error.diagnostics.end() ? kExitOurMistake : exit_code(first->slug);
+  return first == error.diagnostics.end() ? kExitOurMistake : exit_code(*first);
 }
 
 // Parses and runs; every failure becomes a message and a code.

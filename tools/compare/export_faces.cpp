@@ -1,0 +1,53 @@
+// A scene's faces and first camera as JSON on standard output, for programs that render the same scene by other means.
+// Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1.
+#include "dsl/load.h"
+#include "tools/json.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace patchlight {
+namespace {
+
+template <typename Vector>
+nlohmann::json triple(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json make_export(const Scene& scene) {
+  nlohmann::json faces = nlohmann::json::array();
+  for (size_t f = 0; f < scene.faces.size(); ++f) {
+    nlohmann::json corners = nlohmann::json::array();
+    for (size_t k = 0; k < scene.faces.corner_count[f]; ++k) corners.push_back(triple(scene.faces.corners[f][k]));
+    faces.push_back({{"corners", corners},
+                     {"emission", triple(scene.faces.emission[f])},
+                     {"reflectance", triple(scene.faces.reflectance[f])}});
+  }
+  const Camera& camera = scene.cameras.front();
+  return {{"faces", faces},
+          {"camera",
+           {{"eye", triple(camera.eye)},
+            {"target", triple(camera.target)},
+            {"up", triple(camera.up)},
+            {"fov", camera.fov_degrees}}}};
+}
+
+}  // namespace
+}  // namespace patchlight
+
+int main(int argc, char** argv) {
+  using namespace patchlight;
+  if (argc != 2) {
+    fmt::print(stderr, "usage: export_faces SCENE.yaml > FACES.json\n");
+    return 2;
+  }
+  try {
+    std::vector<Diagnostic> warnings;
+    fmt::print("{}\n", make_export(load_scene(argv[1], warnings)).dump());
+  } catch (const UserError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics) fmt::print(stderr, "{}", format_diagnostic(diagnostic));
+    return exit_code(error.diagnostics.front().slug);
+  }
+  return 0;
+}
