@@ -30,6 +30,9 @@ constexpr float kFarLamp = 0.05f;
 constexpr float kNearLamp = 40;
 // So many lamps, the most powerful ones, may be aimed at: ranking them costs polygons times lamps.
 constexpr size_t kLampsRankedMax = 512;
+// A lamp that gives less than this share of an element's light, blockers aside, gets no more than one packet.
+constexpr double kWeakLamp = 0.06;
+constexpr uint32_t kPacketsMax = 16;  // of pairs for an element and a lamp
 // Patches of a polygon from which its lamps are ranked.
 constexpr uint32_t kAimProbes = 64;
 
@@ -174,27 +177,29 @@ void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable,
   sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
 }
 
-// Packets of pairs until enough rays agree (there is no shadow edge here then), or all if they do not.
-// `usable`: which of the element's sixteen points, that the exposed share was found from, are not buried.
-VisibilitySums find_visibility(uint32_t row, uint32_t usable, Vec3 normal, const Lamp& lamp,
-                               const PatchTable& elements, const FaceTable& faces,
-                               const FaceFrameTable& frames, const Tracer& tracer, DirectRays rays,
-                               uint64_t key) {
-  VisibilitySums sums;
-  Points points;
-  const uint32_t packet_count = std::max((rays.mixed + kPacketSize / 2) / kPacketSize, 1u);
-  for (uint32_t packet = 0; packet < packet_count; ++packet) {
-    if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-    make_points(points, frames, elements, row, key, packet, packet_count);
-    const uint32_t open =
-        usable == 0xffff ? usable : ~find_buried_points(points, normal, faces, tracer) & 0xffff;
-    add_visibility(sums, points, open, normal, lamp, frames, tracer, key, packet, packet_count);
+// The packets of points of one element, made when first asked for and used for all lamps; open: which are not
+// buried.
+struct PointPackets {
+  std::array<Points, kPacketsMax> points;
+  std::array<uint32_t, kPacketsMax> open;
+  uint32_t made = 0;
+};
+
+void make_packets(PointPackets& packets, uint32_t count, uint32_t packet_count, const PatchTable& elements,
+                  const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t row,
+                  uint64_t key) {
+  for (; packets.made < count; ++packets.made) {
+    Points& points = packets.points[packets.made];
+    make_points(points, frames, elements, row, key, packets.made, packet_count);
+    packets.open[packets.made] = 0xffff;
+    if (elements.exposed[row] < 1)
+      packets.open[packets.made] &=
+          ~find_buried_points(points, faces.normal[elements.face[row]], faces, tracer);
   }
-  return sums;
 }
 
 // The element's mean unoccluded factor: at its centre, by Gauss's rule if the lamp is near, at its exposed
-// points if part of it is buried.
+// points if part of it is buried (`usable`: which of `points` are not).
 float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames, uint32_t row, Vec3 normal,
                        const std::array<Vec3, 4>& corners, const Lamp& lamp, const Points& points,
                        uint32_t usable) {
@@ -337,50 +342,63 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
   const std::vector<Lamp> lamps = make_lamps(faces, frames);
   std::vector<uint32_t> lamp_of(faces.size(), kNone);
   for (uint32_t k = 0; k < lamps.size(); ++k) lamp_of[lamps[k].face] = k;
+  const uint32_t packet_count = std::clamp((rays.mixed + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
-    Points points;
+    PointPackets packets;
+    std::array<float, kAimedLampsMax> factor;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
       const uint32_t row = rows[r], polygon = faces.polygon[elements.face[row]];
+      const uint32_t first = aims.polygon_first[polygon], count = aims.polygon_first[polygon + 1] - first;
       const Vec3 normal = faces.normal[elements.face[row]];
       const uint64_t key = element_key(elements, row, seed);
       const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];
       uint64_t seen = settled_seen, hidden = settled & out.views.hidden[row];
       Rgb irradiance(0);
       double variance = 0;  // emissions may be as large as 1e20
-      uint32_t usable = 0xffff;
-      if (elements.exposed[row] > 0) {
-        make_points(points, frames, elements, row, key, 0, 1);
-        if (elements.exposed[row] < 1) usable &= ~find_buried_points(points, normal, faces, tracer);
-      } else {
-        usable = 0;
-      }
+      packets.made = 0;
+      make_packets(packets, 1, packet_count, elements, faces, frames, tracer, row, key);
+      const bool dark = elements.exposed[row] == 0 || packets.open[0] == 0;
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
-      for (uint32_t k = aims.polygon_first[polygon]; usable && k < aims.polygon_first[polygon + 1]; ++k) {
-        const uint64_t bit = uint64_t{1} << (k - aims.polygon_first[polygon]);
-        const Lamp& lamp = lamps[lamp_of[aims.lamp[k]]];
-        if (hidden & bit) continue;
-        if (!can_reach(corners, normal, lamp)) {
-          hidden |= bit;
-          continue;
-        }
-        const float factor = find_mean_factor(elements, frames, row, normal, corners, lamp, points, usable);
+      // What each lamp would give if nothing were in its way, and all of them together.
+      double unoccluded = 0;
+      for (uint32_t k = 0; k < count && !dark; ++k) {
+        const Lamp& lamp = lamps[lamp_of[aims.lamp[first + k]]];
+        factor[k] = 0;
+        if (hidden >> k & 1u) continue;
+        if (!can_reach(corners, normal, lamp))
+          hidden |= uint64_t{1} << k;
+        else
+          factor[k] = find_mean_factor(elements, frames, row, normal, corners, lamp, packets.points[0],
+                                       packets.open[0]);
+        unoccluded += factor[k] * luminance(faces.emission[lamp.face]);
+      }
+      for (uint32_t k = 0; k < count && !dark; ++k) {
+        if (factor[k] == 0) continue;  // hidden, or the lamp's horizon crosses a part of the element
+        const Lamp& lamp = lamps[lamp_of[aims.lamp[first + k]]];
         const Rgb emission = faces.emission[lamp.face];
-        if (factor == 0) continue;  // the lamp's horizon may still cross a part of the element
-        if (settled_seen & bit) {
-          irradiance += factor * emission;
+        if (settled_seen >> k & 1u) {
+          irradiance += factor[k] * emission;
           continue;
         }
-        const VisibilitySums sums =
-            find_visibility(row, usable, normal, lamp, elements, faces, frames, tracer, rays, key);
+        // Packets until enough rays agree (there is no shadow edge here then), or all if they do not; one for
+        // a lamp that is weak among many.
+        const double strength = factor[k] * luminance(emission);
+        const uint32_t most = strength < kWeakLamp * unoccluded ? 1 : packet_count;
+        VisibilitySums sums;
+        for (uint32_t packet = 0; packet < most; ++packet) {
+          if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+          make_packets(packets, packet + 1, packet_count, elements, faces, frames, tracer, row, key);
+          add_visibility(sums, packets.points[packet], packets.open[packet], normal, lamp, frames, tracer,
+                         key, packet, packet_count);
+        }
         cast += sums.rays;
         const float visible = sums.all > 0 ? sums.seen / sums.all : 0;
-        if (sums.reached == sums.rays) seen |= bit;
-        if (sums.reached == 0) hidden |= bit;
-        irradiance += factor * visible * emission;
+        if (sums.reached == sums.rays) seen |= uint64_t{1} << k;
+        if (sums.reached == 0) hidden |= uint64_t{1} << k;
+        irradiance += factor[k] * visible * emission;
         // Stratification makes N pairs worth about 3 N random ones (measured on half screens).
-        const double strength = factor * luminance(emission);
         variance += strength * strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
       }
       out.irradiance[row] = irradiance;

@@ -27,7 +27,8 @@ namespace {
 constexpr float kPatchSize = 1 / 30.0f;
 // Of the starting patch size.
 constexpr float kPatchSizeMin = 1 / 64.0f;
-constexpr float kLargeElement = 6;  // least sizes
+constexpr float kVisibleNoise = 0.005f;  // share of an element's radiosity
+constexpr float kLargeElement = 6;       // least sizes
 constexpr uint32_t kSourceCount = 400;
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
@@ -164,13 +165,9 @@ std::vector<uint32_t> all_rows(size_t count) {
   return rows;
 }
 
-// Rays a lamp on the starting mesh, whose elements may be large beside a spot of light (fewer where lamps are
-// many), while the mesh is refined, and once it is final.
-DirectRays start_rays(const AimTable& aims) {
-  constexpr size_t kRaysAll = 1024;
-  const size_t lamps = aims.lamp.size() / std::max<size_t>(aims.polygon_first.size() - 1, 1) + 1;
-  return {static_cast<uint32_t>(std::clamp<size_t>(kRaysAll / lamps, 16, 64)), 64};
-}
+// Rays a lamp on the starting mesh, whose elements may be large beside a spot of light, while the mesh is
+// refined, and once it is final.
+constexpr DirectRays kStartRays{64, 64};
 DirectRays round_rays(const SolverSettings& settings) { return {16, std::max(settings.rays / 4, 16u)}; }
 DirectRays final_rays(const SolverSettings& settings) {
   return {std::max(settings.rays / 8, 16u), std::max(settings.rays / 2, 16u)};
@@ -323,7 +320,7 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.views.hidden.assign(count, 0);
   s.views.settled.assign(count, 0);
   s.fresh = all_rows(count);
-  find_direct_of(s, s.fresh, faces, tracer, start_rays(s.aims), settings);
+  find_direct_of(s, s.fresh, faces, tracer, kStartRays, settings);
   s.seconds.trace += watch.read();
   find_coarse(s, faces);
   find_coarse_radiosity(s, s.fresh, faces);
@@ -358,12 +355,17 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   return true;
 }
 
-// Elements with a shadow edge in them, and their neighbours, where sixteen rays may have missed one.
-std::vector<uint32_t> find_shadow_edges(const Solution& s) {
+// Elements with a shadow edge in them whose noise would show, and their neighbours, where sixteen rays may
+// have missed one.
+std::vector<uint32_t> find_shadow_edges(const Solution& s, const FaceTable& faces) {
   std::vector<uint8_t> near(s.elements.size(), 0);
   for_rows(near.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       if (s.direct_error[row] == 0) continue;
+      // On black surfaces no noise shows; there the irradiance itself is what is asked for.
+      const float reflectance = largest(faces.reflectance[s.elements.face[row]]);
+      const float shown = reflectance * s.direct_error[row];
+      if (reflectance > 0 && shown <= kVisibleNoise * largest(s.elements.radiosity[row])) continue;
       std::atomic_ref<uint8_t>(near[row]).store(1, std::memory_order_relaxed);
       for (uint32_t edge = 0; edge < edge_count(s.frames, s.elements.face[row]); ++edge)
         for (const uint32_t other :
@@ -380,7 +382,7 @@ std::vector<uint32_t> find_shadow_edges(const Solution& s) {
 void freeze(Solution& s, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {
   assert(!s.frozen);
   Stopwatch watch;
-  find_direct_of(s, find_shadow_edges(s), faces, tracer, final_rays(settings), settings);
+  find_direct_of(s, find_shadow_edges(s, faces), faces, tracer, final_rays(settings), settings);
   s.seconds.trace += watch.read();
   s.views = {};
   s.fresh = {};
