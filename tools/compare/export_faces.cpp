@@ -1,5 +1,5 @@
 // A scene's faces and first camera as JSON on standard output, for programs that render the same scene by other means.
-// Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1.
+// Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1; two_sided faces stand for both sides.
 #include "dsl/load.h"
 #include "tools/json.h"
 
@@ -18,11 +18,15 @@ nlohmann::json triple(const Vector& v) {
 nlohmann::json make_export(const Scene& scene) {
   nlohmann::json faces = nlohmann::json::array();
   for (size_t f = 0; f < scene.faces.size(); ++f) {
+    // A ray tracer must not choose between two faces on one place: one of the two goes out.
+    const uint32_t twin = scene.faces.twin[f];
+    if (twin != kNone && twin < f) continue;
     nlohmann::json corners = nlohmann::json::array();
     for (size_t k = 0; k < scene.faces.corner_count[f]; ++k) corners.push_back(triple(scene.faces.corners[f][k]));
     faces.push_back({{"corners", corners},
                      {"emission", triple(scene.faces.emission[f])},
-                     {"reflectance", triple(scene.faces.reflectance[f])}});
+                     {"reflectance", triple(scene.faces.reflectance[f])},
+                     {"two_sided", twin != kNone}});
   }
   const Camera& camera = scene.cameras.front();
   return {{"faces", faces},
