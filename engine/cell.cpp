@@ -145,6 +145,12 @@ float cell_area(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint
   return static_cast<float>(0.5 * length(cross(DVec3(c[2]) - DVec3(c[0]), DVec3(c[3]) - DVec3(c[1]))));
 }
 
+float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames) {
+  double area = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) area += cell_area(frames, f, 0, 0);
+  return static_cast<float>(std::sqrt(area));
+}
+
 float longest_edge(const std::array<Vec3, 4>& corners) {
   float longest = 0;
   for (size_t k = 0; k < 4; ++k) longest = std::max(longest, distance(corners[k], corners[(k + 1) % 4]));

@@ -240,24 +240,27 @@ struct Candidate {
   uint32_t face;
 };
 
-// Lamps that reach any of the patches [first, last) of one polygon; sky: the mean share of its sky that they
-// fill, both from up to kAimProbes patches.
+// Lamps that reach any of the patches `rows` (ascending); sky: the mean share of their sky that they fill,
+// both from up to kAimProbes patches.
 void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<const Lamp> lamps,
-                     uint32_t first, uint32_t last, const PatchTable& patches, const FaceTable& faces,
+                     std::span<const uint32_t> rows, const PatchTable& patches, const FaceTable& faces,
                      const FaceFrameTable& frames) {
-  const uint32_t step = std::max((last - first) / kAimProbes, 1u);
+  const size_t step = std::max(rows.size() / kAimProbes, size_t{1});
   candidates.clear();
   double sky_sum = 0, area_sum = 0;
-  for (uint32_t row = first; row < last; row += step) area_sum += patches.area[row] * patches.exposed[row];
+  for (size_t k = 0; k < rows.size(); k += step) area_sum += patches.area[rows[k]] * patches.exposed[rows[k]];
   for (const Lamp& lamp : lamps) {
+    const auto is_reached = [&](size_t k) {
+      const uint32_t face = patches.face[rows[k]];
+      if (k > 0 && face == patches.face[rows[k - 1]]) return false;  // asked before
+      return lamp.face != face && can_reach(cell_corners(frames, face, 0, 0), faces.normal[face], lamp);
+    };
     bool reached = false;
-    for (uint32_t row = first; row < last && !reached; row = patches.face_first[patches.face[row] + 1])
-      reached = lamp.face != patches.face[row] && can_reach(cell_corners(frames, patches.face[row], 0, 0),
-                                                            faces.normal[patches.face[row]], lamp);
+    for (size_t k = 0; k < rows.size() && !reached; ++k) reached = is_reached(k);
     if (!reached) continue;
     double seen = 0;
-    for (uint32_t row = first; row < last; row += step) {
-      const uint32_t face = patches.face[row];
+    for (size_t k = 0; k < rows.size(); k += step) {
+      const uint32_t row = rows[k], face = patches.face[row];
       const Vec3 centre = cell_centre(frames, face, patches.cell[row], patches.level[row]);
       seen += patches.area[row] * patches.exposed[row] * find_factor(centre, faces.normal[face], lamp);
     }
@@ -267,9 +270,33 @@ void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<
   sky = area_sum > 0 ? sky_sum / area_sum : 0;
 }
 
+// A list of its own for every polygon, but one for all polygons whose patches share a receiver. Returns the
+// number of lists, which are in the order of their first polygons.
+uint32_t share_lists(std::vector<uint32_t>& list_of, const FaceTable& faces, const PatchTable& patches,
+                     const ReceiverTable& receivers) {
+  list_of.resize(faces.size() ? faces.polygon.back() + 1 : 0);
+  std::iota(list_of.begin(), list_of.end(), 0u);
+  const auto find_root = [&](uint32_t polygon) {
+    while (list_of[polygon] != polygon) polygon = list_of[polygon] = list_of[list_of[polygon]];
+    return polygon;
+  };
+  for (size_t r = 0; r < receivers.size(); ++r)
+    for (uint32_t k = receivers.first[r] + 1; k < receivers.first[r + 1]; ++k) {
+      const uint32_t a = find_root(faces.polygon[patches.face[receivers.patch[k - 1]]]);
+      const uint32_t b = find_root(faces.polygon[patches.face[receivers.patch[k]]]);
+      list_of[std::max(a, b)] = std::min(a, b);
+    }
+  // A root is the first polygon of its list.
+  uint32_t count = 0;
+  for (uint32_t polygon = 0; polygon < list_of.size(); ++polygon)
+    list_of[polygon] = list_of[polygon] == polygon ? count++ : list_of[list_of[polygon]];
+  return count;
+}
+
 }  // namespace
 
-AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
+AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches,
+                   const ReceiverTable& receivers) {
   assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
   std::vector<Lamp> lamps = make_lamps(faces, frames);
   if (lamps.size() > kLampsRankedMax) {
@@ -282,17 +309,16 @@ AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const P
                      });
     lamps.resize(kLampsRankedMax);
   }
-  const uint32_t polygon_count = faces.size() ? faces.polygon.back() + 1 : 0;
-  std::vector<uint32_t> row_first(polygon_count + 1, 0);  // CSR: polygon -> patches
-  for (const uint32_t face : patches.face) ++row_first[faces.polygon[face] + 1];
-  std::partial_sum(row_first.begin(), row_first.end(), row_first.begin());
-  std::vector<std::vector<uint32_t>> chosen(polygon_count);
-  for_rows(polygon_count, 4, [&](size_t begin, size_t end) {
+  AimTable aims;
+  const uint32_t list_count = share_lists(aims.list_of, faces, patches, receivers);
+  std::vector<std::vector<uint32_t>> rows(list_count), chosen(list_count);
+  for (uint32_t row = 0; row < patches.size(); ++row)
+    rows[aims.list_of[faces.polygon[patches.face[row]]]].push_back(row);
+  for_rows(list_count, 4, [&](size_t begin, size_t end) {
     std::vector<Candidate> candidates;
-    for (size_t polygon = begin; polygon < end; ++polygon) {
+    for (size_t list = begin; list < end; ++list) {
       double sky = 0;
-      find_candidates(candidates, sky, lamps, row_first[polygon], row_first[polygon + 1], patches, faces,
-                      frames);
+      find_candidates(candidates, sky, lamps, rows[list], patches, faces, frames);
       if (sky > kLampSkyMax) continue;
       if (candidates.size() > kAimedLampsMax) {
         std::nth_element(candidates.begin(), candidates.begin() + kAimedLampsMax, candidates.end(),
@@ -301,15 +327,14 @@ AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const P
                          });
         candidates.resize(kAimedLampsMax);
       }
-      for (const Candidate& candidate : candidates) chosen[polygon].push_back(candidate.face);
-      std::sort(chosen[polygon].begin(), chosen[polygon].end());
+      for (const Candidate& candidate : candidates) chosen[list].push_back(candidate.face);
+      std::sort(chosen[list].begin(), chosen[list].end());
     }
   });
-  AimTable aims;
-  aims.polygon_first.push_back(0);
+  aims.list_first.push_back(0);
   for (const auto& list : chosen) {
     aims.lamp.insert(aims.lamp.end(), list.begin(), list.end());
-    aims.polygon_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
+    aims.list_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
   }
   return aims;
 }
@@ -349,8 +374,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
     std::array<float, kAimedLampsMax> factor;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
-      const uint32_t row = rows[r], polygon = faces.polygon[elements.face[row]];
-      const uint32_t first = aims.polygon_first[polygon], count = aims.polygon_first[polygon + 1] - first;
+      const uint32_t row = rows[r], list = aims.list_of[faces.polygon[elements.face[row]]];
+      const uint32_t first = aims.list_first[list], count = aims.list_first[list + 1] - first;
       const Vec3 normal = faces.normal[elements.face[row]];
       const uint64_t key = element_key(elements, row, seed);
       const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];

@@ -17,7 +17,7 @@ namespace {
 // Only places that send more than this many times the scene's mean are aimed at: elsewhere rows do as well,
 // and where all send alike they are exact.
 constexpr double kBrightOverMean = 3;
-constexpr uint32_t kBlock = 16;  // patches
+constexpr uint32_t kBlock = 16;  // receivers
 
 uint32_t valid_count(const HitTable& hits, size_t row) {
   const auto first = hits.patch.begin() + static_cast<std::ptrdiff_t>(row * hits.ray_count);
@@ -86,12 +86,49 @@ AimedSample make_aimed_sample(uint64_t key, uint32_t index) {
   return {{coordinate(0), coordinate(1)}, {coordinate(2), coordinate(3)}};
 }
 
-struct PatchPlace {
-  uint32_t row, face, cell, level;
+// A receiver, and what its rays need of it.
+struct Place {
+  uint32_t row;
+  uint32_t patch;  // its first
+  bool shared;     // has others
+  CellFrame cell;  // of its first patch
   Vec3 centre, normal;
   uint32_t rays;  // of its row, and as many aimed
   float share_valid;
 };
+
+Place make_place(uint32_t row, const HitTable& hits, const ReceiverTable& receivers,
+                 const PatchTable& patches, const FaceFrameTable& frames) {
+  const uint32_t patch = receivers.patch[receivers.first[row]];
+  return {row,
+          patch,
+          receivers.first[row + 1] - receivers.first[row] > 1,
+          make_cell_frame(frames.triangle[patches.face[patch]], patches.cell[patch], patches.level[patch]),
+          receivers.centre[row],
+          receivers.normal[row],
+          hits.ray_count,
+          static_cast<float>(valid_count(hits, row)) / static_cast<float>(hits.ray_count)};
+}
+
+// What a bounce reads; nothing in it changes while it runs.
+struct Bounce {
+  const HitTable& hits;
+  const ReceiverTable& receivers;
+  const PatchTable& patches;
+  const Elements& elements;
+  std::span<const Rgb> sent;  // a row an element
+  const SourceTable& sources;
+  const FaceTable& faces;
+  const FaceFrameTable& frames;
+  const Tracer& tracer;
+  uint64_t seed;
+};
+
+Origin find_origin_of(const Place& place, const Bounce& b, Vec2 sample) {
+  if (place.shared) return find_origin(b.receivers, place.row, b.patches, b.faces, b.frames, sample);
+  const uint32_t face = b.patches.face[place.patch];
+  return {face_point(b.frames, face, cell_sample(b.frames.triangle[face], place.cell, sample)), place.normal};
+}
 
 // The kernel cos cos / (pi r2) between two points.
 float form_factor_kernel(Vec3 way, Vec3 normal, Vec3 source_normal) {
@@ -136,11 +173,9 @@ struct AimedPacket {
   float value[kPacketSize];  // what the target's radiosity counts for if it is seen; 0: no ray
 };
 
-void make_aimed_packet(AimedPacket& packet, const PatchPlace& place, const AimShares& shares,
-                       const SourceTable& sources, const PatchTable& elements, std::span<const Rgb> sent,
-                       const FaceFrameTable& frames, uint64_t key, uint32_t index, uint32_t count) {
-  const bool triangle = frames.triangle[place.face];
-  const CellFrame cell = make_cell_frame(triangle, place.cell, place.level);
+void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares& shares, const Bounce& b,
+                       uint64_t key, uint32_t index, uint32_t count) {
+  const SourceTable& sources = b.sources;
   const float first = (static_cast<float>(index) + make_jitter(key, index).x) / static_cast<float>(count);
   auto source =
       static_cast<uint32_t>(std::lower_bound(shares.cumulative.begin(), shares.cumulative.end(), first) -
@@ -150,12 +185,13 @@ void make_aimed_packet(AimedPacket& packet, const PatchPlace& place, const AimSh
         (static_cast<float>(index + k) + make_jitter(key, index + k).x) / static_cast<float>(count);
     while (shares.cumulative[source] < at) ++source;
     const AimedSample sample = make_aimed_sample(key, index + k);
-    const SourcePoint point = pick_source_point(sources, elements, frames, source, sample.target);
-    Vec3 origin = face_point(frames, place.face, cell_sample(triangle, cell, sample.origin));
-    origin += ray_offset(origin) * place.normal;
+    const SourcePoint point = pick_source_point(sources, b.elements.table, b.frames, source, sample.target);
+    const Origin from = find_origin_of(place, b, sample.origin);
+    const Vec3 origin = from.point + ray_offset(from.point) * from.normal;
     Vec3 target = point.place;
-    const float kernel = form_factor_kernel(target - origin, place.normal, sources.normal[source]);
-    const float density = shares.share[source] * find_density(sources, source, elements, point.element, sent);
+    const float kernel = form_factor_kernel(target - origin, from.normal, sources.normal[source]);
+    const float density =
+        shares.share[source] * find_density(sources, source, b.elements.table, point.element, b.sent);
     const float row_density = form_factor_kernel(target - place.centre, place.normal, sources.normal[source]);
     packet.value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
     packet.source[k] = source;
@@ -175,26 +211,29 @@ uint32_t find_worthwhile(const AimedPacket& packet) {
   return active;
 }
 
-// How often rays from a block of patches reach each source: what blocks one patch's view mostly blocks its
+// How often rays from a block of receivers reach each source: what blocks one's view mostly blocks its
 // neighbours'.
 struct SourceViews {
   std::vector<uint32_t> tried, reached;  // rows are sources
   void clear(size_t count) { tried.assign(count, 0), reached.assign(count, 0); }
 };
 
-uint64_t probe_sources(SourceViews& views, const PatchPlace& place, const AimShares& shares,
-                       const SourceTable& sources, const PatchTable& elements, std::span<const Rgb> sent,
-                       const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed) {
-  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowAimedProbe);
+uint64_t make_place_key(const Place& place, const Bounce& b, uint32_t purpose) {
+  const uint32_t patch = place.patch;
+  return make_row_key(b.seed, b.patches.face[patch], b.patches.cell[patch], b.patches.level[patch], purpose);
+}
+
+uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& shares, const Bounce& b) {
+  const uint64_t key = make_place_key(place, b, kRowAimedProbe);
   const uint32_t count = std::max(place.rays / 4 / kPacketSize, 1u) * kPacketSize;
   uint64_t ray_count = 0;
   AimedPacket packet;
   for (uint32_t index = 0; index < count; index += kPacketSize) {
-    make_aimed_packet(packet, place, shares, sources, elements, sent, frames, key, index, count);
+    make_aimed_packet(packet, place, shares, b, key, index, count);
     const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(tracer, packet.rays, active);
+    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       views.tried[packet.source[k]] += active >> k & 1u;
       views.reached[packet.source[k]] += (active & ~blocked) >> k & 1u;
@@ -217,79 +256,101 @@ void weigh_shares(AimShares& shares, const SourceViews& views) {
 }
 
 // The part of the aimed rays; the mean over their count.
-Rgb gather_aimed(const PatchPlace& place, const AimShares& shares, const SourceTable& sources,
-                 const PatchTable& elements, std::span<const Rgb> sent, const FaceTable& faces,
-                 const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed, uint64_t& ray_count) {
-  const uint64_t key = make_row_key(seed, place.face, place.cell, place.level, kRowAimed);
+Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, uint64_t& ray_count) {
+  const uint64_t key = make_place_key(place, b, kRowAimed);
   const Frame frame = make_frame(place.normal);
   Rgb sum(0);
   uint32_t usable_count = 0;
   AimedPacket packet;
   for (uint32_t index = 0; index < place.rays; index += kPacketSize) {
-    make_aimed_packet(packet, place, shares, sources, elements, sent, frames, key, index, place.rays);
+    make_aimed_packet(packet, place, shares, b, key, index, place.rays);
     const uint32_t buried =
-        place.share_valid < 1 ? find_buried(tracer, faces, frame, packet.rays, 0xffff) : 0;
+        place.share_valid < 1 ? find_buried(b.tracer, b.faces, frame, packet.rays, 0xffff) : 0;
     usable_count += kPacketSize - static_cast<uint32_t>(std::popcount(buried));
     const uint32_t active = find_worthwhile(packet) & ~buried;
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(tracer, packet.rays, active);
+    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active);
     for (uint32_t k = 0; k < kPacketSize; ++k)
-      if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * sent[packet.element[k]];
+      if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * b.sent[packet.element[k]];
   }
   return usable_count ? sum / static_cast<float>(usable_count) : Rgb(0);
 }
 
 // The part of the row's own rays; hits on sources weigh as much as the aimed rays leave them.
-Rgb gather_row(const PatchPlace& place, const AimShares& shares, const SourceTable& sources,
-               const HitTable& hits, const PatchTable& patches, const Elements& elements,
-               std::span<const uint32_t> element_source, std::span<const Rgb> sent,
-               const FaceFrameTable& frames) {
+Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
+               std::span<const uint32_t> element_source) {
+  const HitTable& hits = b.hits;
   Rgb sum(0);
   for (size_t entry = place.row * size_t{hits.ray_count}; entry < (place.row + 1) * size_t{hits.ray_count};
        ++entry) {
     const uint32_t patch = hits.patch[entry];
     if (patch >= kHitBuried) continue;
-    const uint32_t element = find_element(elements, patch, hits.cell[entry]);
+    const uint32_t element = find_element(b.elements, patch, hits.cell[entry]);
     const uint32_t source = shares.any ? element_source[element] : kNone;
     float weight = 1;
     if (source != kNone && shares.share[source] > 0) {
-      const uint32_t face = patches.face[patch];
-      const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[entry], kLevelMax);
+      const uint32_t face = b.patches.face[patch];
+      const CellFrame end = make_cell_frame(b.frames.triangle[face], hits.cell[entry], kLevelMax);
       const Vec2 uv = end.origin + end.size * 0.5f;
-      const float kernel = form_factor_kernel(face_point(frames, face, uv) - place.centre, place.normal,
-                                              sources.normal[source]);
-      weight = heuristic(kernel,
-                         shares.share[source] * find_density(sources, source, elements.table, element, sent));
+      const float kernel = form_factor_kernel(face_point(b.frames, face, uv) - place.centre, place.normal,
+                                              b.sources.normal[source]);
+      weight = heuristic(
+          kernel, shares.share[source] * find_density(b.sources, source, b.elements.table, element, b.sent));
     }
-    sum += weight * sent[element];
+    sum += weight * b.sent[element];
   }
   return sum / (place.share_valid * static_cast<float>(hits.ray_count));
 }
 
+// Blocks of neighbours that face one way share what they learn of the sources: on one face, or in one run of
+// shared receivers.
+std::vector<uint32_t> make_blocks(const ReceiverTable& receivers, const PatchTable& patches) {
+  const auto is_shared = [&](uint32_t row) { return receivers.first[row + 1] - receivers.first[row] > 1; };
+  const auto face_of = [&](uint32_t row) { return patches.face[receivers.patch[receivers.first[row]]]; };
+  std::vector<uint32_t> block_first;
+  for (uint32_t row = 0; row < receivers.size(); ++row) {
+    const bool goes_on =
+        row > 0 && row - block_first.back() < kBlock &&
+        (is_shared(row)
+             ? is_shared(row - 1) && dot(receivers.normal[row], receivers.normal[block_first.back()]) > 0.9f
+             : face_of(row) == face_of(row - 1));
+    if (!goes_on) block_first.push_back(row);
+  }
+  block_first.push_back(static_cast<uint32_t>(receivers.size()));
+  return block_first;
+}
+
+// The value of a receiver to all of its patches.
+void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, Rgb value) {
+  for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k)
+    column[receivers.patch[k]] = value;
+}
+
 }  // namespace
 
-void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const AimTable& aims,
-                     const PatchTable& patches, const FaceTable& faces) {
+void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
+                     const AimTable& aims, const PatchTable& patches, const FaceTable& faces) {
   std::vector<uint8_t> emits(faces.size());
   for (size_t f = 0; f < faces.size(); ++f) emits[f] = largest(faces.emission[f]) > 0;
-  for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
+  for_rows(receivers.size(), 64, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       Rgb sum(0);
-      const uint32_t polygon = faces.polygon[patches.face[row]];
+      // Polygons that share a receiver aim at the same lamps.
+      const uint32_t polygon = faces.polygon[patches.face[receivers.patch[receivers.first[row]]]];
       for (size_t k = row * hits.ray_count; k < (row + 1) * hits.ray_count; ++k) {
         if (hits.patch[k] >= kHitBuried) continue;
         const uint32_t face = patches.face[hits.patch[k]];
         if (emits[face] && !is_aimed(aims, polygon, face)) sum += faces.emission[face];
       }
       const uint32_t valid = valid_count(hits, row);
-      irradiance[row] = valid ? sum / static_cast<float>(valid) : Rgb(0);
+      spread(irradiance, receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
     }
   });
 }
 
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const HitTable& hits,
-                    std::span<const Rgb> sent) {
+                    const ReceiverTable& receivers, std::span<const Rgb> sent) {
   // Four floats a patch load in one go; the last row stands for rays that met no patch.
   struct alignas(16) Wide {
     float channel[4];
@@ -297,7 +358,7 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
   std::vector<Wide> source(sent.size() + 1, Wide{});
   for (size_t p = 0; p < sent.size(); ++p) source[p] = {{sent[p].r, sent[p].g, sent[p].b, 0}};
   const auto no_patch = static_cast<uint32_t>(sent.size());
-  for_rows(irradiance.size(), 64, [&](size_t begin, size_t end) {
+  for_rows(receivers.size(), 64, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       const uint32_t* hit = hits.patch.data() + row * hits.ray_count;
       // Rays in two halves, a chequerboard over the strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the
@@ -312,8 +373,9 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
       const auto valid = static_cast<float>(valid_count(hits, row));
       const Rgb halves[2] = {{sum[0].channel[0], sum[0].channel[1], sum[0].channel[2]},
                              {sum[1].channel[0], sum[1].channel[1], sum[1].channel[2]}};
-      irradiance[row] = valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0);
-      if (!difference.empty()) difference[row] = valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0);
+      spread(irradiance, receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
+      if (!difference.empty())
+        spread(difference, receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
     }
   });
 }
@@ -392,57 +454,40 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
   return sources;
 }
 
-uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const PatchTable& patches,
-                         const Elements& elements, std::span<const Rgb> sent, const SourceTable& sources,
-                         const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
-                         uint64_t seed) {
+uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
+                         const PatchTable& patches, const Elements& elements, std::span<const Rgb> sent,
+                         const SourceTable& sources, const FaceTable& faces, const FaceFrameTable& frames,
+                         const Tracer& tracer, uint64_t seed) {
+  const Bounce b{hits, receivers, patches, elements, sent, sources, faces, frames, tracer, seed};
   std::vector<uint32_t> element_source(elements.table.size(), kNone);
   for (uint32_t s = 0; s < sources.size(); ++s)
     std::fill(element_source.begin() + sources.element_first[s],
               element_source.begin() + sources.element_last[s], s);
   assert(hits.ray_count % kPacketSize == 0);
-  // Blocks of neighbours on one face share what they learn of the sources.
-  std::vector<uint32_t> block_first;
-  for (uint32_t row = 0; row < patches.size(); ++row)
-    if (row == 0 || patches.face[row] != patches.face[row - 1] || row - block_first.back() == kBlock)
-      block_first.push_back(row);
-  block_first.push_back(static_cast<uint32_t>(patches.size()));
+  const std::vector<uint32_t> block_first = make_blocks(receivers, patches);
   std::atomic<uint64_t> ray_count{0};
   for_rows(block_first.size() - 1, 2, [&](size_t begin, size_t end) {
     std::vector<AimShares> shares(kBlock);
     SourceViews views;
     uint64_t cast = 0;
     for (size_t block = begin; block < end; ++block) {
-      const auto make_place = [&](uint32_t row) {
-        const uint32_t face = patches.face[row];
-        return PatchPlace{row,
-                          face,
-                          patches.cell[row],
-                          patches.level[row],
-                          cell_centre(frames, face, patches.cell[row], patches.level[row]),
-                          faces.normal[face],
-                          hits.ray_count,
-                          static_cast<float>(valid_count(hits, row)) / static_cast<float>(hits.ray_count)};
-      };
       views.clear(sources.size());
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
-        const PatchPlace place = make_place(row);
+        const Place place = make_place(row, hits, receivers, patches, frames);
         AimShares& mine = shares[row - block_first[block]];
         find_shares(mine, sources, place.centre, place.normal);
-        if (mine.any && place.share_valid > 0)
-          cast += probe_sources(views, place, mine, sources, elements.table, sent, frames, tracer, seed);
+        if (mine.any && place.share_valid > 0) cast += probe_sources(views, place, mine, b);
       }
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
-        const PatchPlace place = make_place(row);
+        const Place place = make_place(row, hits, receivers, patches, frames);
         AimShares& mine = shares[row - block_first[block]];
-        irradiance[row] = Rgb(0);
-        if (place.share_valid == 0) continue;
-        if (mine.any) weigh_shares(mine, views);
-        irradiance[row] =
-            gather_row(place, mine, sources, hits, patches, elements, element_source, sent, frames);
-        if (mine.any)
-          irradiance[row] +=
-              gather_aimed(place, mine, sources, elements.table, sent, faces, frames, tracer, seed, cast);
+        Rgb received(0);
+        if (place.share_valid > 0) {
+          if (mine.any) weigh_shares(mine, views);
+          received = gather_row(place, mine, b, element_source);
+          if (mine.any) received += gather_aimed(place, mine, b, cast);
+        }
+        spread(irradiance, receivers, row, received);
       }
     }
     ray_count += cast;

@@ -68,7 +68,8 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
   const std::vector<Rgb> irradiance = element_irradiance(s);
   for (size_t p = 0; p < s.patches.size(); ++p) {
     uint32_t nothing = 0, back = 0, buried = 0;
-    for (size_t k = p * s.hits.ray_count; k < (p + 1) * s.hits.ray_count; ++k) {
+    const size_t receiver = s.receivers.receiver_of[p];
+    for (size_t k = receiver * s.hits.ray_count; k < (receiver + 1) * s.hits.ray_count; ++k) {
       nothing += s.hits.patch[k] == kHitNothing;
       back += s.hits.patch[k] == kHitBack;
       buried += s.hits.patch[k] == kHitBuried;

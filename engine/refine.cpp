@@ -13,7 +13,7 @@ namespace patchlight {
 namespace {
 
 constexpr float kFloorOfMean = 0.01f;  // differences below this share of the mean are not seen
-constexpr float kNoiseMargin = 3;   // standard errors that a difference must exceed
+constexpr float kNoiseMargin = 3;      // standard errors that a difference must exceed
 
 // By how much the pair exceeds what is allowed, W/m2; 0 or less: it does not.
 float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float threshold) {

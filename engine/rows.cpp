@@ -14,14 +14,6 @@ namespace patchlight {
 namespace {
 
 constexpr uint32_t kProbeRays = 32;
-// Of the square root of the scene's area: a patch is never larger, and not split below the smallest.
-constexpr float kPatchEdgeMax = 0.06f;
-constexpr float kPatchEdgeMin = 0.006f;
-constexpr float kPatchEdgeMinAtSolid = 0.003f;
-// A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992,
-// use the same mean for the reach of a sample).
-constexpr float kPatchEdgePerDistance = 0.25f;
-
 // The step for which the lattice (k, k * step mod count) fills the square most evenly: its shortest vector is
 // longest.
 uint32_t find_lattice_step(uint32_t count) {
@@ -62,28 +54,65 @@ RowGrid make_row_grid(uint32_t rays) {
   return {columns, rows, find_lattice_step(columns), find_lattice_step(rows)};
 }
 
-void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face,
-                     uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet) {
-  const bool triangle = frames.triangle[face];
-  const CellFrame place = make_cell_frame(triangle, cell, level);
+namespace {
+
+// Points of the unit square for the sixteen rays of a packet: directions and origins.
+struct RowSamples {
+  float direction_x[kPacketSize], direction_y[kPacketSize], origin_x[kPacketSize], origin_y[kPacketSize];
+};
+
+void make_row_samples(RowSamples& samples, uint64_t row_key, RowGrid grid, uint32_t packet) {
   const uint32_t tile_columns = grid.columns / 4;
   const uint32_t column = 4 * (packet % tile_columns), row = 4 * (packet / tile_columns);
   const uint32_t shift_u = static_cast<uint32_t>(row_key) % grid.rows;
   const uint32_t shift_v = static_cast<uint32_t>(row_key >> 32) % grid.columns;
   const float scale_x = 1 / static_cast<float>(grid.columns), scale_y = 1 / static_cast<float>(grid.rows);
-  // Loops over lanes stand alone, so that they compile to wide instructions: hashing, directions, origins.
-  float direction_x[kPacketSize], direction_y[kPacketSize], origin_s[kPacketSize], origin_t[kPacketSize];
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const uint32_t a = column + k % 4, b = row + k / 4, index = b * grid.columns + a;
     const Vec2 d = make_jitter(row_key, 2 * index), o = make_jitter(row_key, 2 * index + 1);
-    direction_x[k] = (static_cast<float>(a) + d.x) * scale_x;
-    direction_y[k] = (static_cast<float>(b) + d.y) * scale_y;
+    samples.direction_x[k] = (static_cast<float>(a) + d.x) * scale_x;
+    samples.direction_y[k] = (static_cast<float>(b) + d.y) * scale_y;
     // Every packet's sixteen origins are spread over the whole patch, and every stratum of the patch is used
     // once.
     const uint32_t c = (b * grid.row_step + shift_u) % grid.rows;
     const uint32_t e = (a * grid.column_step + shift_v) % grid.columns;
-    const Vec2 uv = cell_sample(
-        triangle, place, {(static_cast<float>(c) + o.x) * scale_y, (static_cast<float>(e) + o.y) * scale_x});
+    samples.origin_x[k] = (static_cast<float>(c) + o.x) * scale_y;
+    samples.origin_y[k] = (static_cast<float>(e) + o.y) * scale_x;
+  }
+}
+
+// The row of a receiver of many patches: every ray starts on one of them and leaves by its normal.
+void make_shared_packet(HitPacket& rays, const ReceiverTable& receivers, uint32_t receiver,
+                        const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
+                        uint64_t row_key, RowGrid grid, uint32_t packet) {
+  RowSamples samples;
+  make_row_samples(samples, row_key, grid, packet);
+  RayPacket& ray = rays.ray;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Origin origin =
+        find_origin(receivers, receiver, patches, faces, frames, {samples.origin_x[k], samples.origin_y[k]});
+    const Frame frame = make_frame(origin.normal);
+    const Vec3 local = make_local_direction(samples.direction_x[k], samples.direction_y[k]);
+    const Vec3 direction = local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.normal;
+    const Vec3 point = origin.point + ray_offset(origin.point) * origin.normal;
+    ray.origin_x[k] = point.x, ray.origin_y[k] = point.y, ray.origin_z[k] = point.z;
+    ray.direction_x[k] = direction.x, ray.direction_y[k] = direction.y, ray.direction_z[k] = direction.z;
+    ray.near_distance[k] = 0, ray.far_distance[k] = std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace
+
+void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame& frame, uint32_t face,
+                     uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid, uint32_t packet) {
+  const bool triangle = frames.triangle[face];
+  const CellFrame place = make_cell_frame(triangle, cell, level);
+  // Loops over lanes stand alone, so that they compile to wide instructions: hashing, directions, origins.
+  RowSamples samples;
+  make_row_samples(samples, row_key, grid, packet);
+  float origin_s[kPacketSize], origin_t[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec2 uv = cell_sample(triangle, place, {samples.origin_x[k], samples.origin_y[k]});
     origin_s[k] = uv.x, origin_t[k] = uv.y;
   }
   const Vec3 corner = frames.origin[face], u = frames.edge_u[face], v = frames.edge_v[face],
@@ -91,7 +120,7 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
   const Vec3 tangent = frame.tangent, bitangent = frame.bitangent, normal = frame.normal;
   RayPacket& ray = rays.ray;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const Vec3 local = make_local_direction(direction_x[k], direction_y[k]);
+    const Vec3 local = make_local_direction(samples.direction_x[k], samples.direction_y[k]);
     ray.direction_x[k] = local.x * tangent.x + local.y * bitangent.x + local.z * normal.x;
     ray.direction_y[k] = local.x * tangent.y + local.y * bitangent.y + local.z * normal.y;
     ray.direction_z[k] = local.x * tangent.z + local.y * bitangent.z + local.z * normal.z;
@@ -105,6 +134,22 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
     ray.origin_x[k] = p.x + offset * normal.x, ray.origin_y[k] = p.y + offset * normal.y;
     ray.origin_z[k] = p.z + offset * normal.z;
   }
+}
+
+Origin find_origin(const ReceiverTable& receivers, uint32_t receiver, const PatchTable& patches,
+                   const FaceTable& faces, const FaceFrameTable& frames, Vec2 sample) {
+  const uint32_t first = receivers.first[receiver], last = receivers.first[receiver + 1];
+  // The first coordinate picks the patch by its area; what is left of it is uniform again.
+  const float* until = receivers.area_until.data();
+  const auto entry = std::min(
+      static_cast<uint32_t>(std::upper_bound(until + first, until + last, sample.x) - until), last - 1);
+  const float before = entry > first ? until[entry - 1] : 0;
+  const float rest = (sample.x - before) / std::max(until[entry] - before, 1e-30f);
+  const uint32_t patch = receivers.patch[entry], face = patches.face[patch];
+  const bool triangle = frames.triangle[face];
+  const CellFrame cell = make_cell_frame(triangle, patches.cell[patch], patches.level[patch]);
+  const Vec2 inside(std::clamp(rest, 0.0f, 0x1.fffffep-1f), sample.y);
+  return {face_point(frames, face, cell_sample(triangle, cell, inside)), faces.normal[face]};
 }
 
 uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& frame, const RayPacket& rays,
@@ -138,21 +183,30 @@ uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& 
   return active;
 }
 
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
-                   const Tracer& tracer, uint32_t rays, uint64_t seed) {
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& receivers,
+                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays,
+                   uint64_t seed) {
   const RowGrid grid = make_row_grid(rays);
   hits.ray_count = grid.ray_count();
-  hits.patch.resize(patches.size() * hits.ray_count);
-  hits.cell.resize(patches.size() * hits.ray_count);
-  for_rows(patches.size(), 16, [&](size_t begin, size_t end) {
+  hits.patch.resize(receivers.size() * hits.ray_count);
+  hits.cell.resize(receivers.size() * hits.ray_count);
+  for_rows(receivers.size(), 16, [&](size_t begin, size_t end) {
     HitPacket packet;
     for (size_t row = begin; row < end; ++row) {
-      const uint32_t face = patches.face[row];
-      const Frame frame = make_frame(faces.normal[face]);
-      const uint64_t key = make_row_key(seed, face, patches.cell[row], patches.level[row], kRowHits);
+      const std::span members =
+          std::span(receivers.patch)
+              .subspan(receivers.first[row], receivers.first[row + 1] - receivers.first[row]);
+      const uint32_t patch = members[0], face = patches.face[patch];
+      const Frame frame = make_frame(receivers.normal[row]);
+      const uint64_t key = make_row_key(seed, face, patches.cell[patch], patches.level[patch], kRowHits);
       uint32_t buried_count = 0;
       for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-        make_row_packet(packet, frames, frame, face, patches.cell[row], patches.level[row], key, grid, tile);
+        if (members.size() == 1)
+          make_row_packet(packet, frames, frame, face, patches.cell[patch], patches.level[patch], key, grid,
+                          tile);
+        else
+          make_shared_packet(packet, receivers, static_cast<uint32_t>(row), patches, faces, frames, key, grid,
+                             tile);
         find_hits(tracer, packet, 0xffff);
         const size_t first = row * hits.ray_count + tile * kPacketSize;
         uint32_t back = 0;
@@ -180,17 +234,16 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const FaceTable& faces, 
             if (buried >> k & 1u) hits.patch[first + k] = kHitBuried, ++buried_count;
         }
       }
-      patches.exposed[row] = 1 - static_cast<float>(buried_count) / static_cast<float>(hits.ray_count);
+      const float exposed = 1 - static_cast<float>(buried_count) / static_cast<float>(hits.ray_count);
+      for (const uint32_t member : members) patches.exposed[member] = exposed;
     }
   });
-  return uint64_t{hits.ray_count} * patches.size();
+  return uint64_t{hits.ray_count} * receivers.size();
 }
 
 PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
                         const Tracer& tracer, uint64_t patch_count_max, uint64_t seed, uint64_t& ray_count) {
-  double area = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f) area += cell_area(frames, f, 0, 0);
-  const float scale = static_cast<float>(std::sqrt(area));
+  const float scale = find_scene_scale(faces, frames);
   PatchTable patches = make_leaves(faces, frames, [&](uint32_t face) {
     uint32_t level = 0;
     float edge = longest_edge(cell_corners(frames, face, 0, 0));

@@ -12,7 +12,15 @@
 namespace patchlight {
 
 // What the samples of a row are for: rows of different purposes are unrelated.
-enum RowPurpose : uint32_t { kRowProbe = 1, kRowHits, kRowDirect, kRowAimed, kRowAimedProbe, kRowEmission };
+enum RowPurpose : uint32_t {
+  kRowProbe = 1,
+  kRowHits,
+  kRowDirect,
+  kRowAimed,
+  kRowAimedProbe,
+  kRowEmission,
+  kRowShare
+};
 
 // Directions of a row: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins
 // take the strata of the other axis, permuted by a lattice: stratum k goes with k * step modulo their number.
@@ -34,9 +42,26 @@ void make_row_packet(HitPacket& rays, const FaceFrameTable& frames, const Frame&
 uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& frame, const RayPacket& rays,
                      uint32_t active);
 
-// Casts the rows of all patches. Returns the number of rays cast and writes the exposed share of each patch.
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
-                   const Tracer& tracer, uint32_t rays, uint64_t seed);
+// Where a ray of a receiver starts, and the normal there: a point of the unit square, uniform in the area.
+struct Origin {
+  Vec3 point, normal;
+};
+Origin find_origin(const ReceiverTable& receivers, uint32_t receiver, const PatchTable& patches,
+                   const FaceTable& faces, const FaceFrameTable& frames, Vec2 sample);
+
+// Casts the rows of all receivers. Returns the number of rays cast and writes the exposed share of each
+// patch.
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& receivers,
+                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays,
+                   uint64_t seed);
+
+// Of the square root of the scene's area: a patch is never larger, and not split below the smallest.
+constexpr float kPatchEdgeMax = 0.06f;
+constexpr float kPatchEdgeMin = 0.006f;
+constexpr float kPatchEdgeMinAtSolid = 0.003f;
+// A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992,
+// use the same mean for the reach of a sample).
+constexpr float kPatchEdgePerDistance = 0.25f;
 
 // Patches as fine as the transport between them needs: split while larger than a quarter of the mean distance
 // to what they see. Returns balanced leaves; ray_count is raised by the probing rays.

@@ -9,6 +9,7 @@
 #include "direct.h"
 #include "gather.h"
 #include "parallel.h"
+#include "receivers.h"
 #include "refine.h"
 #include "rows.h"
 #include "vertices.h"
@@ -51,12 +52,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames) {
-  double area = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f) area += cell_area(frames, f, 0, 0);
-  return static_cast<float>(std::sqrt(area));
-}
 
 // How often a face is halved before the first round.
 uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face,
@@ -187,11 +182,11 @@ void find_coarse(Solution& s, const FaceTable& faces) {
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
   std::vector<Rgb> sent(count), error(count, Rgb(0)), difference(count), next(count);
-  gather_emission(next, s.hits, s.aims, s.patches, faces);
+  gather_emission(next, s.hits, s.receivers, s.aims, s.patches, faces);
   s.coarse = next;
   for (size_t p = 0; p < count; ++p) sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + next[p]);
   for (uint32_t pass = 2; pass <= kCoarsePassesMax; ++pass) {
-    gather_patches(next, difference, s.hits, sent);
+    gather_patches(next, difference, s.hits, s.receivers, sent);
     double added = 0, all = 0;
     for (size_t p = 0; p < count; ++p) {
       s.coarse[p] += next[p];
@@ -304,15 +299,17 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.links = make_face_links(faces);
   s.patches =
       make_patches(faces, s.frames, s.links, tracer, settings.patch_count_max / 2, settings.seed, ray_count);
+  s.receivers = make_receivers(s.patches, faces, s.frames, tracer, settings.seed, ray_count);
   s.seconds.split += watch.read();
-  ray_count += cast_rows(s.hits, s.patches, faces, s.frames, tracer, settings.rays, settings.seed);
+  ray_count +=
+      cast_rows(s.hits, s.patches, s.receivers, faces, s.frames, tracer, settings.rays, settings.seed);
   s.seconds.trace += watch.read();
   s.patch_vertices = make_vertices(s.patches, s.frames, s.links);
   s.elements =
       make_elements(s.patches, faces, s.frames, s.links, find_patch_sizes(faces, s.frames, settings).start);
   find_element_patches(s);
   s.seconds.split += watch.read();
-  s.aims = make_aims(faces, s.frames, s.patches);
+  s.aims = make_aims(faces, s.frames, s.patches, s.receivers);
   const size_t count = s.elements.size();
   s.direct.resize(count);
   s.direct_error.resize(count);
@@ -404,16 +401,17 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
   PassReport report;
   report.pass = static_cast<uint32_t>(s.passes.size()) + 1;
   if (report.pass == 1) {
-    gather_emission(s.irradiance_added, s.hits, s.aims, s.patches, faces);
+    gather_emission(s.irradiance_added, s.hits, s.receivers, s.aims, s.patches, faces);
     report.ray_count = s.direct_ray_count;
   } else if (report.pass == 2) {
     const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
-    report.ray_count = gather_elements(s.irradiance_added, s.hits, s.patches, {s.elements, s.element_first},
-                                       s.elements.unshot, sources, faces, s.frames, tracer, settings.seed) +
-                       uint64_t{s.hits.ray_count} * s.patches.size();
+    report.ray_count =
+        gather_elements(s.irradiance_added, s.hits, s.receivers, s.patches, {s.elements, s.element_first},
+                        s.elements.unshot, sources, faces, s.frames, tracer, settings.seed) +
+        uint64_t{s.hits.ray_count} * s.receivers.size();
   } else {
     const std::vector<Rgb> sent = s.patches.unshot;
-    gather_patches(s.irradiance_added, {}, s.hits, sent);
+    gather_patches(s.irradiance_added, {}, s.hits, s.receivers, sent);
   }
   for (size_t p = 0; p < s.patches.size(); ++p) {
     s.irradiance[p] += s.irradiance_added[p];
@@ -498,9 +496,11 @@ uint64_t count_bytes(const Solution& s) {
   };
   const FaceFrameTable& f = s.frames;
   return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.element_first, s.element_patch, s.aims.polygon_first, s.aims.lamp,
-               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct,
-               s.direct_error, s.irradiance, s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
+               s.links.corner, s.element_first, s.element_patch, s.aims.list_of, s.aims.list_first,
+               s.aims.lamp, s.receivers.first, s.receivers.patch, s.receivers.area_until, s.receivers.centre,
+               s.receivers.normal, s.receivers.receiver_of, s.views.seen, s.views.hidden, s.views.settled,
+               s.hits.patch, s.hits.cell, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
+               s.coarse, s.coarse_error, s.fresh) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
          vertex_bytes(s.element_vertices);
 }

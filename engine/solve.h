@@ -54,7 +54,8 @@ struct Solution {
   VertexTable element_vertices;
   AimTable aims;
   LampViewTable views;                // a row an element
-  HitTable hits;                      // a row of rays a patch
+  ReceiverTable receivers;            // of the patches
+  HitTable hits;                      // a row of rays a receiver
   std::vector<Rgb> direct;            // a row an element: irradiance from the lamps aimed at, W/m2
   std::vector<float> direct_error;    // a row an element: its standard error, W/m2 (luminance)
   std::vector<Rgb> irradiance;        // a row a patch: all other irradiance of the passes so far, W/m2

@@ -85,7 +85,8 @@ struct VertexTable {
 // Lamps that each polygon aims at (rays from its elements to points on the lamp). All other emission its
 // patches meet by their rows.
 struct AimTable {
-  std::vector<uint32_t> polygon_first;  // CSR: polygon -> lamps (faces), ascending, at most kAimedLampsMax
+  std::vector<uint32_t> list_of;     // a row a polygon; polygons whose patches share a receiver have one list
+  std::vector<uint32_t> list_first;  // CSR: list -> lamps (faces), ascending, at most kAimedLampsMax
   std::vector<uint32_t> lamp;
 };
 constexpr size_t kAimedLampsMax = 64;  // as many as fit a 64-bit mask
@@ -99,8 +100,20 @@ struct LampViewTable {
   size_t size() const { return seen.size(); }
 };
 
-// Where the row rays of each patch ended: a row of ray_count entries a patch, fixed geometry, kept for all
-// passes.
+// Who casts rows of rays: a patch, or many small ones that share a row. All patches of a receiver get the
+// same irradiance from its row.
+struct ReceiverTable {
+  std::vector<uint32_t> first;  // CSR: receiver -> its patches
+  std::vector<uint32_t> patch;
+  std::vector<float>
+      area_until;  // a row an entry of patch: share of the receiver's area up to its end; the last is 1
+  std::vector<Vec3> centre, normal;   // lengths, unit: means over the area
+  std::vector<uint32_t> receiver_of;  // a row a patch
+  size_t size() const { return centre.size(); }
+};
+
+// Where the row rays of each receiver ended: a row of ray_count entries a receiver, fixed geometry, kept for
+// all passes.
 struct HitTable {
   std::vector<uint32_t> patch;  // the patch hit, or kHitNothing, or kHitBack
   std::vector<uint32_t> cell;   // where on the patch's face: a cell of level kLevelMax

@@ -40,17 +40,18 @@ std::vector<double> find_row_sums(const Solution& solution, const FaceTable& fac
   const PatchTable& patches = solution.patches;
   const HitTable& hits = solution.hits;
   std::vector<double> area(polygon_count, 0), met(polygon_count, 0);
-  if (hits.patch.size() == patches.size() * hits.ray_count)
-    for (size_t row = 0; row < patches.size(); ++row) {
+  if (solution.receivers.receiver_of.size() == patches.size())
+    for (size_t patch = 0; patch < patches.size(); ++patch) {
+      const size_t row = solution.receivers.receiver_of[patch];
       size_t cast = 0, hit = 0;
       for (size_t ray = row * hits.ray_count; ray < (row + 1) * hits.ray_count; ++ray) {
         cast += hits.patch[ray] != kHitBuried;
         hit += hits.patch[ray] != kHitBuried && hits.patch[ray] != kHitNothing;
       }
       if (cast == 0) continue;
-      const uint32_t polygon = faces.polygon[patches.face[row]];
-      area[polygon] += patches.area[row];
-      met[polygon] += patches.area[row] * static_cast<double>(hit) / static_cast<double>(cast);
+      const uint32_t polygon = faces.polygon[patches.face[patch]];
+      area[polygon] += patches.area[patch];
+      met[polygon] += patches.area[patch] * static_cast<double>(hit) / static_cast<double>(cast);
     }
   for (size_t polygon = 0; polygon < polygon_count; ++polygon)
     met[polygon] = area[polygon] > 0 ? std::min(met[polygon] / area[polygon], 1.0) : -1;
@@ -77,6 +78,10 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
   json["polygons"] = scene.polygons.size();
   json["faces"] = scene.faces.size();
   json["patches"] = solution.elements.size();
+  // The coarse tree that carries light between surfaces, and the rows of form factors that its patches share.
+  json["transport"] = {{"patches", solution.patches.size()},
+                       {"rows", solution.receivers.size()},
+                       {"rays_per_row", solution.hits.ray_count}};
   json["threads"] = report.thread_count;
   if (report.solution_hash) json["solution_hash"] = fmt::format("{:016x}", *report.solution_hash);
   if (report.exposure_ev) json["exposure"] = *report.exposure_ev;

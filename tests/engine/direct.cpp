@@ -1,6 +1,7 @@
 #include "engine/direct.h"
 
 #include "engine/lambert.h"
+#include "engine/receivers.h"
 #include "engine/rows.h"
 #include "tests/scenes.h"
 
@@ -34,6 +35,11 @@ FaceTable make_floor() {
   return faces;
 }
 
+// With a receiver, and so a list of lamps, for each of them.
+AimTable aim_all(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
+  return make_aims(faces, frames, patches, make_single_receivers(patches, faces, frames));
+}
+
 Stage light_stage(FaceTable faces, uint32_t level, DirectRays rays, uint64_t seed) {
   Stage stage{std::move(faces), {}, {}, {}, {}, {}, {}, {}, {}};
   stage.frames = make_face_frames(stage.faces);
@@ -42,7 +48,7 @@ Stage light_stage(FaceTable faces, uint32_t level, DirectRays rays, uint64_t see
       make_leaves(stage.faces, stage.frames, [&](uint32_t face) { return face == 0 ? level : uint32_t{0}; });
   stage.element_patch.resize(stage.elements.size());
   std::iota(stage.element_patch.begin(), stage.element_patch.end(), 0u);
-  stage.aims = make_aims(stage.faces, stage.frames, stage.elements);
+  stage.aims = aim_all(stage.faces, stage.frames, stage.elements);
   stage.irradiance.resize(stage.elements.size());
   stage.error.resize(stage.elements.size());
   stage.views.seen.assign(stage.elements.size(), 0);
@@ -162,9 +168,9 @@ TEST_CASE("lamps that cannot reach an element are not aimed at: behind, below, o
            make_surface(1, 0));  // lights
   const FaceFrameTable frames = make_face_frames(faces);
   const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  const AimTable aims = make_aims(faces, frames, patches);
-  REQUIRE(aims.polygon_first.size() == faces.size() + 1);
-  CHECK(aims.polygon_first[1] - aims.polygon_first[0] == 1);
+  const AimTable aims = aim_all(faces, frames, patches);
+  REQUIRE(aims.list_first.size() == faces.size() + 1);
+  CHECK(aims.list_first[1] - aims.list_first[0] == 1);
   CHECK(is_aimed(aims, 0, 3));
   CHECK(!is_aimed(aims, 0, 0));
   CHECK(!is_aimed(aims, 0, 2));
@@ -179,8 +185,8 @@ TEST_CASE("a polygon aims at the strongest 64 of many lamps, in order") {
   }
   const FaceFrameTable frames = make_face_frames(faces);
   const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 0u; });
-  const AimTable aims = make_aims(faces, frames, patches);
-  REQUIRE(aims.polygon_first[1] == kAimedLampsMax);
+  const AimTable aims = aim_all(faces, frames, patches);
+  REQUIRE(aims.list_first[1] == kAimedLampsMax);
   CHECK(std::is_sorted(aims.lamp.begin(), aims.lamp.begin() + kAimedLampsMax));
   for (uint32_t lamp = 1; lamp <= 100; ++lamp)
     if ((lamp - 1) % 3 == 0) CHECK(is_aimed(aims, 0, lamp));
@@ -191,7 +197,7 @@ TEST_CASE("a polygon whose sky is full of lamps leaves them all to its rows") {
   add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, 0.5f)));
   const FaceFrameTable frames = make_face_frames(faces);
   const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  CHECK(make_aims(faces, frames, patches).lamp.empty());
+  CHECK(aim_all(faces, frames, patches).lamp.empty());
 }
 
 TEST_CASE("settled lamps cast no rays and change nothing") {
@@ -271,7 +277,7 @@ TEST_CASE("the exposed share of elements: all, none, or as many of sixteen point
   const Tracer tracer = make_tracer(faces);
   PatchTable patches = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 2u : 0u; });
   HitTable hits;
-  cast_rows(hits, patches, faces, frames, tracer, 256, 1);
+  cast_rows(hits, patches, make_single_receivers(patches, faces, frames), faces, frames, tracer, 256, 1);
   PatchTable elements = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 4u : 0u; });
   const auto first = find_union_ranges(patches, elements);
   std::vector<uint32_t> element_patch(elements.size()), rows(elements.size());

@@ -1,6 +1,7 @@
 #include "engine/gather.h"
 
 #include "engine/direct.h"
+#include "engine/receivers.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
@@ -20,6 +21,7 @@ struct Room {
   HitTable hits;
   std::vector<Rgb> sent;
   uint64_t seed;
+  ReceiverTable receivers = {};
 };
 
 Room make_room(const Tracer& tracer, const FaceTable& faces, uint64_t seed) {
@@ -28,7 +30,8 @@ Room make_room(const Tracer& tracer, const FaceTable& faces, uint64_t seed) {
   room.links = make_face_links(faces);
   room.patches = make_leaves(faces, room.frames, [](uint32_t) { return 3u; });
   room.elements = make_leaves(faces, room.frames, [](uint32_t) { return 5u; });
-  cast_rows(room.hits, room.patches, faces, room.frames, tracer, 256, seed);
+  room.receivers = make_single_receivers(room.patches, faces, room.frames);
+  cast_rows(room.hits, room.patches, room.receivers, faces, room.frames, tracer, 256, seed);
   room.first = find_union_ranges(room.patches, room.elements);
   room.sent.resize(room.elements.size());
   for (uint32_t row = 0; row < room.elements.size(); ++row) {
@@ -52,8 +55,8 @@ std::vector<Rgb> gather(const Room& room, const Tracer& tracer, const std::vecto
   const SourceTable sources =
       source_count ? make_sources(room.elements, room.faces, room.frames, sent, source_count) : SourceTable{};
   std::vector<Rgb> irradiance(room.patches.size());
-  gather_elements(irradiance, room.hits, room.patches, {room.elements, room.first}, sent, sources, room.faces,
-                  room.frames, tracer, room.seed);
+  gather_elements(irradiance, room.hits, room.receivers, room.patches, {room.elements, room.first}, sent,
+                  sources, room.faces, room.frames, tracer, room.seed);
   return irradiance;
 }
 
@@ -65,7 +68,7 @@ TEST_CASE("gather: where all send alike, every patch of a closed room receives e
   const Room room = make_room(tracer, faces, 1);
   const std::vector<Rgb> patch_sent(room.patches.size(), Rgb(3, 1, 0.25f));
   std::vector<Rgb> irradiance(room.patches.size()), difference(room.patches.size());
-  gather_patches(irradiance, difference, room.hits, patch_sent);
+  gather_patches(irradiance, difference, room.hits, room.receivers, patch_sent);
   // Sums of 256 equal floats.
   for (const Rgb& value : irradiance) CHECK(distance(value, Rgb(3, 1, 0.25f)) <= 1e-4f);
   for (const Rgb& value : difference) CHECK(largest(value) <= 1e-4f);
@@ -123,13 +126,17 @@ TEST_CASE("gather: rays that meet nothing or a back side bring nothing, buried o
   }
   const std::vector<Rgb> sent = {Rgb(100), Rgb(7), Rgb(1, 2, 3)};
   std::vector<Rgb> irradiance(3), difference(3);
-  gather_patches(irradiance, difference, hits, sent);
+  ReceiverTable receivers;
+  receivers.first = {0, 1, 2, 3};
+  receivers.patch = receivers.receiver_of = {0, 1, 2};
+  receivers.centre.resize(3);
+  gather_patches(irradiance, difference, hits, receivers, sent);
   CHECK(irradiance[0] == Rgb(0.5f, 1, 1.5f));
   CHECK(irradiance[1] == Rgb(7));
   CHECK(irradiance[2] == Rgb(0));
   CHECK(difference[2] == Rgb(0));
   std::vector<Rgb> again(3);
-  gather_patches(again, {}, hits, sent);
+  gather_patches(again, {}, hits, receivers, sent);
   CHECK(again == irradiance);
 }
 
@@ -141,8 +148,8 @@ TEST_CASE("gather: the stated difference is about the standard error of the row"
   std::vector<Rgb> sent(a.patches.size());
   for (uint32_t row = 0; row < sent.size(); ++row) sent[row] = Rgb(row % 4 == 0 ? 1.0f : 0.0f);
   std::vector<Rgb> first(sent.size()), second(sent.size()), difference(sent.size());
-  gather_patches(second, {}, b.hits, sent);
-  gather_patches(first, difference, a.hits, sent);
+  gather_patches(second, {}, b.hits, b.receivers, sent);
+  gather_patches(first, difference, a.hits, a.receivers, sent);
   double squares = 0, stated = 0;
   for (size_t row = 0; row < sent.size(); ++row) {
     squares += std::pow(first[row].g - second[row].g, 2) / 2;
@@ -159,16 +166,18 @@ TEST_CASE("gather: emission that a polygon aims at is not counted again by its r
   const Tracer tracer = make_tracer(faces);
   const Room room = make_room(tracer, faces, 1);
   const uint32_t polygon_count = static_cast<uint32_t>(faces.size());
-  AimTable none{std::vector<uint32_t>(polygon_count + 1, 0), {}}, ceiling = none, both = none;
+  AimTable none{{}, std::vector<uint32_t>(polygon_count + 1, 0), {}};
+  for (uint32_t polygon = 0; polygon < polygon_count; ++polygon) none.list_of.push_back(polygon);
+  AimTable ceiling = none, both = none;
   for (uint32_t polygon = 0; polygon < polygon_count; ++polygon) {
     ceiling.lamp.push_back(kCeiling);
     both.lamp.push_back(std::min(kCeiling, kLeft)), both.lamp.push_back(std::max(kCeiling, kLeft));
-    ceiling.polygon_first[polygon + 1] = polygon + 1, both.polygon_first[polygon + 1] = 2 * polygon + 2;
+    ceiling.list_first[polygon + 1] = polygon + 1, both.list_first[polygon + 1] = 2 * polygon + 2;
   }
   std::vector<Rgb> all(room.patches.size()), left(all), nothing(all);
-  gather_emission(all, room.hits, none, room.patches, faces);
-  gather_emission(left, room.hits, ceiling, room.patches, faces);
-  gather_emission(nothing, room.hits, both, room.patches, faces);
+  gather_emission(all, room.hits, room.receivers, none, room.patches, faces);
+  gather_emission(left, room.hits, room.receivers, ceiling, room.patches, faces);
+  gather_emission(nothing, room.hits, room.receivers, both, room.patches, faces);
   double floor_all = 0, floor_left = 0;
   const uint32_t count = room.patches.face_first[1];
   for (uint32_t row = 0; row < count; ++row)

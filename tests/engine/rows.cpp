@@ -1,6 +1,7 @@
 #include "engine/rows.h"
 
 #include "engine/quadtree.h"
+#include "engine/receivers.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
@@ -43,7 +44,9 @@ Rows cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t se
   Rows rows{make_face_frames(faces), {}, {}};
   rows.patches = make_leaves(faces, rows.frames, [&](uint32_t) { return level; });
   const Tracer tracer = make_tracer(faces);
-  const uint64_t count = cast_rows(rows.hits, rows.patches, faces, rows.frames, tracer, rays, seed);
+  const uint64_t count =
+      cast_rows(rows.hits, rows.patches, make_single_receivers(rows.patches, faces, rows.frames), faces,
+                rows.frames, tracer, rays, seed);
   CHECK(count == uint64_t{rows.hits.ray_count} * rows.patches.size());
   return rows;
 }

@@ -63,7 +63,7 @@ TEST_CASE("passes are the Neumann series: they tend to the dense solution of the
   for (size_t i = 0; i < n; ++i) {
     const uint32_t face = s.patches.face[i];
     for (uint32_t k = 0; k < s.hits.ray_count; ++k) {
-      const uint32_t j = s.hits.patch[i * s.hits.ray_count + k];
+      const uint32_t j = s.hits.patch[s.receivers.receiver_of[i] * size_t{s.hits.ray_count} + k];
       REQUIRE(j < n);
       matrix[i][j] -= double{faces.reflectance[face].g} / s.hits.ray_count;
     }

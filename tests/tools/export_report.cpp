@@ -21,6 +21,7 @@ struct Example {
     scene.faces.polygon = {0, 1};
     solution.patches.face = {0, 0, 1};
     solution.patches.area = {3, 1, 1};
+    solution.receivers.receiver_of = {0, 1, 2};
     solution.hits.ray_count = 2;
     solution.hits.patch = {0, kHitBack, kHitNothing, 1, kHitBuried, 0};
     solution.passes.push_back(
