@@ -62,7 +62,7 @@ void cut_quad(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
 bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
   cut.points = polygon.points;
   cut.faces.clear();
-  const bool flat_enough = polygon.off_plane <= kFlatMax;
+  const bool flat_enough = polygon.off_plane <= kFlatMax && !polygon.only_triangles;
   const bool one_ring = polygon.ring_count() == 1;
   if (one_ring && polygon.points.size() == 3) {
     cut.faces.push_back({0, 1, 2, 2});
