@@ -58,8 +58,9 @@ bool flatten(Messages& messages, const Tree& tree, const ObjectTable& objects, c
              uint32_t p, FlatPolygon& flat) {
   if (!objects.is_mesh[outlines.object[p]]) return flatten_polygon(messages, tree, outlines, p, flat);
   const uint32_t ring = outlines.polygon_first[p];
-  const auto corners = std::span(outlines.corners)
-                           .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
+  const auto corners =
+      std::span(outlines.corners)
+          .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
   for (const DVec3& c : corners)
     if (!(std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}) <= kCoordinateMax)) {
       add_error(messages, place_of(tree, outlines.ring_node[ring]), "coordinate-too-large",
@@ -286,10 +287,11 @@ void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable&
   }
   for (uint32_t object = 0; object < objects.size(); ++object)
     if (in_mesh[object] > 0)
-      add_warning(messages, place_of(tree, objects.node[object]), "coincident",
-                  fmt::format("{} faces of this mesh lie on others of it; light and shadow between the two are "
-                              "left to rounding",
-                              in_mesh[object]));
+      add_warning(
+          messages, place_of(tree, objects.node[object]), "coincident",
+          fmt::format("{} faces of this mesh lie on others of it; light and shadow between the two are "
+                      "left to rounding",
+                      in_mesh[object]));
 }
 
 }  // namespace patchlight

@@ -252,7 +252,8 @@ MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon)
   const auto same = [&](DVec3 a, DVec3 b) { return glm::length(a - b) <= kRepeated * polygon.size; };
   for (const DVec3& point : corners)
     if (polygon.points.empty() || !same(point, polygon.points.back())) polygon.points.push_back(point);
-  while (polygon.points.size() > 1 && same(polygon.points.back(), polygon.points[0])) polygon.points.pop_back();
+  while (polygon.points.size() > 1 && same(polygon.points.back(), polygon.points[0]))
+    polygon.points.pop_back();
   if (polygon.points.size() < 3) return MeshFace::kNoArea;
   polygon.ring_first = {0, static_cast<uint32_t>(polygon.points.size())};
   if (!lay_flat(polygon)) return MeshFace::kNoArea;

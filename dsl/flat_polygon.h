@@ -20,7 +20,8 @@ struct FlatPolygon {
   double area = 0;                                   // holes taken off, in units of size squared
   DVec2 centroid{0};                                 // in units of size
   double off_plane = 0;  // largest distance of a corner from the plane, in units of size
-  bool only_triangles = false;  // its outline touches itself, or it is a bent face of a mesh: no quads, no rings
+  bool only_triangles =
+      false;  // its outline touches itself, or it is a bent face of a mesh: no quads, no rings
   size_t ring_count() const { return ring_first.size() - 1; }
 };
 

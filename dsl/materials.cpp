@@ -48,13 +48,12 @@ uint32_t find_material(const Context& context, uint32_t node, MaterialTable& mat
     }
   std::string message = fmt::format("no material '{}'", escape_text(name));
   if (wants_errors(context.messages)) {
-    const std::vector<std::string> names(materials.name.begin(),
-                                         materials.name.begin() + static_cast<ptrdiff_t>(materials.named_count));
+    const std::vector<std::string> names(
+        materials.name.begin(), materials.name.begin() + static_cast<ptrdiff_t>(materials.named_count));
     if (const std::string near = did_you_mean(name, names); !near.empty())
       message += fmt::format("; did you mean '{}'?", near);
     std::string known;
-    for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k)
-      known += (k ? ", " : "") + names[k];
+    for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k) known += (k ? ", " : "") + names[k];
     message += names.empty() ? "; the scene has no materials" : fmt::format(" known: {}", known);
     if (names.size() > 12) message += ", ...";
   }

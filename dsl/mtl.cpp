@@ -29,6 +29,7 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
   StatementReader reader = read_statements(messages, file);
   const size_t errors_before = messages.error_count, first = table.size();
   std::string_view keyword;
+  bool has_d = false;  // of this material: d says more than Tr, which some programs write the wrong way round
   while (messages.error_count - errors_before < kErrorsShown && next_statement(reader, keyword)) {
     if (keyword == "newmtl") {
       table.name.emplace_back(rest_of(reader));
@@ -36,7 +37,10 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
       table.reflectance.emplace_back(0);
       table.has_kd.push_back(0);
       table.emits.push_back(0);
-      table.simplified.push_back(0);
+      table.textured.push_back(0);
+      table.transparent.push_back(0);
+      table.row_of.emplace(table.name.back(), static_cast<uint32_t>(table.size() - 1));
+      has_d = false;
       continue;
     }
     if (table.size() == first) continue;  // belongs to no material
@@ -47,20 +51,17 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
     } else if (keyword == "Ke" && read_colour(messages, reader, colour)) {
       table.emits.back() = std::max({colour.r, colour.g, colour.b}) > 0;
     } else if (keyword == "map_Kd") {
-      table.simplified.back() = 1;
+      table.textured.back() = 1;
     } else if (keyword == "d" || keyword == "Tr") {
       if (rest_of(reader).starts_with("-halo")) next_word(reader);
       double value = 0;
       if (!next_number(messages, reader, value)) continue;
-      if (keyword == "d" ? value < 1 : value > 0) table.simplified.back() = 1;
+      if (keyword == "Tr" && has_d) continue;
+      has_d = keyword == "d";
+      table.transparent.back() = has_d ? value < 1 : value > 0;
     }
   }
   return messages.error_count == errors_before;
-}
-
-uint32_t find_mtl(const MtlTable& table, const std::string& name) {
-  const auto found = std::find(table.name.begin(), table.name.end(), name);
-  return found == table.name.end() ? kNone : static_cast<uint32_t>(found - table.name.begin());
 }
 
 }  // namespace patchlight

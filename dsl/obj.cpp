@@ -10,23 +10,22 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <unordered_map>
 
 namespace patchlight {
 namespace {
 
 // Statements that say nothing about polygons. Others are refused: they would mean a lost part or no OBJ.
 constexpr std::array<std::string_view, 16> kPassedOver = {
-    "vt", "vn", "g", "o", "s", "l", "p", "bevel", "c_interp", "d_interp", "lod", "maplib", "usemap", "mg", "shadow_obj", "trace_obj"};
+    "vt",       "vn",       "g",   "o",      "s",      "l",  "p",          "bevel",
+    "c_interp", "d_interp", "lod", "maplib", "usemap", "mg", "shadow_obj", "trace_obj"};
 constexpr std::array<std::string_view, 7> kCurved = {"cstype", "curv", "curv2", "surf", "vp", "bzp", "bsp"};
 
 struct Reader {
   Messages& messages;
   StatementReader statements;
   ObjMesh& mesh;
-  std::unordered_map<std::string, uint32_t> material_row;
-  uint32_t material = kNone;    // that usemtl chose last
-  bool reaches_ahead = false;   // some index names a vertex that had not come yet
+  uint32_t material = kNone;   // that usemtl chose last
+  bool reaches_ahead = false;  // some index names a vertex that had not come yet
 };
 
 void report(Reader& reader, std::string_view word, std::string_view slug, std::string message) {
@@ -99,8 +98,12 @@ void read_face(Reader& reader) {
 
 void read_material(Reader& reader) {
   const std::string name(rest_of(reader.statements));
+  if (name.empty()) {
+    reader.material = kNone;
+    return;
+  }
   const auto [row, is_new] =
-      reader.material_row.emplace(name, static_cast<uint32_t>(reader.mesh.material.size()));
+      reader.mesh.material_row.emplace(name, static_cast<uint32_t>(reader.mesh.material.size()));
   if (is_new) {
     reader.mesh.material.push_back(name);
     reader.mesh.material_line.push_back(reader.statements.line);
@@ -117,11 +120,14 @@ void read_statement(Reader& reader, std::string_view keyword) {
     reader.mesh.library_line.push_back(reader.statements.line);
     return;
   }
-  const auto is_in = [&](const auto& list) { return std::find(list.begin(), list.end(), keyword) != list.end(); };
+  const auto is_in = [&](const auto& list) {
+    return std::find(list.begin(), list.end(), keyword) != list.end();
+  };
   if (is_in(kPassedOver)) return;
   report(reader, keyword, "mesh-invalid",
-         is_in(kCurved) ? fmt::format("'{}': curved surfaces are not read; export the model as polygons", keyword)
-                        : fmt::format("'{}' is no statement of an OBJ file", escape_text(keyword)));
+         is_in(kCurved)
+             ? fmt::format("'{}': curved surfaces are not read; export the model as polygons", keyword)
+             : fmt::format("'{}' is no statement of an OBJ file", escape_text(keyword)));
 }
 
 // Indices of vertices that came later than the face, or never.
@@ -140,7 +146,7 @@ void check_ahead(Reader& reader) {
 }  // namespace
 
 bool read_obj(Messages& messages, uint32_t file, ObjMesh& mesh) {
-  Reader reader{messages, read_statements(messages, file), mesh, {}};
+  Reader reader{messages, read_statements(messages, file), mesh};
   const size_t errors_before = messages.error_count;
   const auto errors = [&] { return messages.error_count - errors_before; };
   std::string_view keyword;
@@ -155,9 +161,9 @@ bool read_obj(Messages& messages, uint32_t file, ObjMesh& mesh) {
   }
   if (errors() == 0 && reader.reaches_ahead) check_ahead(reader);
   if (errors() == 0 && mesh.face_count() == 0)
-    add_error(messages, {file, 1, 1}, "mesh-invalid",
-              fmt::format("no faces: the file has {} vertices and nothing that joins them",
-                          mesh.position.size()));
+    add_error(
+        messages, {file, 1, 1}, "mesh-invalid",
+        fmt::format("no faces: the file has {} vertices and nothing that joins them", mesh.position.size()));
   return errors() == 0;
 }
 

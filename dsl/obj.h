@@ -5,6 +5,7 @@
 #include "messages.h"
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace patchlight {
@@ -18,7 +19,8 @@ struct ObjMesh {
   std::vector<uint32_t> face_material;  // row of `material`, or kNone
   std::vector<std::string> material;    // names behind usemtl, each once
   std::vector<uint32_t> material_line;  // 1-based, of the first usemtl
-  std::vector<std::string> library;     // what stands behind each mtllib
+  std::unordered_map<std::string, uint32_t> material_row;  // of a name
+  std::vector<std::string> library;                        // what stands behind each mtllib
   std::vector<uint32_t> library_line;
   size_t face_count() const { return face_line.size(); }
 };

@@ -83,7 +83,8 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   const uint32_t id_node = value_of(map, "id").node;
   const std::string id =
       id_node != kNone ? name.prefix + std::string(text_of(context.tree, id_node)) : name.unnamed;
-  const uint32_t row = add_object(id_node != kNone ? id_node : node, own, shape->name == "mesh", scene.objects);
+  const uint32_t row =
+      add_object(id_node != kNone ? id_node : node, own, shape->name == "mesh", scene.objects);
   const size_t first = scene.outlines.size();
   shape->build({context, map, value_of(map, shape->name).node, id, own, row, scene});
   if (moved) apply_transform(transform, node, first, scene.outlines);

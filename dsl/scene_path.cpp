@@ -19,26 +19,31 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-fs::path find_scene_file(Messages& messages, Place place, const std::string& name, const fs::path& folder,
-                         std::string_view missing_slug) {
-  const auto fail = [&](std::string_view slug, std::string message) {
-    add_error(messages, place, slug, std::move(message));
-    return fs::path{};
-  };
+FoundFile locate_scene_file(const Messages& messages, const std::string& name, const fs::path& folder,
+                            std::string_view missing_slug) {
   const std::string shown = escape_text(name);
   if (name.find("://") != std::string::npos)
-    return fail(missing_slug, fmt::format("'{}': only files are read, there is no network access", shown));
+    return {{}, missing_slug, fmt::format("'{}': only files are read, there is no network access", shown)};
   if (fs::path(name).is_absolute())
-    return fail("include-outside-root",
-                fmt::format("'{}': paths are relative, inside the scene's folder", shown));
+    return {{},
+            "include-outside-root",
+            fmt::format("'{}': paths are relative, inside the scene's folder", shown)};
   std::error_code error;
   const fs::path found = fs::weakly_canonical(folder / name, error);
   if (!error && !is_below(found, messages.files[0].folder))
-    return fail("include-outside-root", fmt::format("'{}' lies outside of the scene's folder", shown));
+    return {{}, "include-outside-root", fmt::format("'{}' lies outside of the scene's folder", shown)};
   if (error || !fs::exists(found, error))
-    return fail(missing_slug,
-                fmt::format("no file '{}'; looked in {}", shown, escape_text(folder.string(), 200)));
-  return found;
+    return {{},
+            missing_slug,
+            fmt::format("no file '{}'; looked in {}", shown, escape_text(folder.string(), 200))};
+  return {found, {}, {}};
+}
+
+fs::path find_scene_file(Messages& messages, Place place, const std::string& name, const fs::path& folder,
+                         std::string_view missing_slug) {
+  FoundFile found = locate_scene_file(messages, name, folder, missing_slug);
+  if (found.path.empty()) add_error(messages, place, found.slug, std::move(found.message));
+  return found.path;
 }
 
 fs::path folder_of(const Messages& messages, Place place) {

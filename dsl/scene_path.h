@@ -9,8 +9,20 @@
 
 namespace patchlight {
 
-// The canonical path of a file that is named relative to `folder` (canonical) at `place`; empty after an
-// error: include-outside-root, or `missing_slug` where there is none. messages.files[0].folder is the scene's.
+// A file that was looked for: `path` is canonical, or empty where there is none that may be read; then `slug`
+// and `message` say why.
+struct FoundFile {
+  std::filesystem::path path;
+  std::string_view slug;
+  std::string message;
+};
+
+// Looks for a file that is named relative to `folder` (canonical). The slug is include-outside-root, or
+// `missing_slug` where there is none. messages.files[0].folder is the scene's.
+FoundFile locate_scene_file(const Messages& messages, const std::string& name,
+                            const std::filesystem::path& folder, std::string_view missing_slug);
+
+// The same, with the reason as an error at `place`: then the path is empty.
 std::filesystem::path find_scene_file(Messages& messages, Place place, const std::string& name,
                                       const std::filesystem::path& folder, std::string_view missing_slug);
 

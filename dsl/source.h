@@ -8,8 +8,8 @@
 
 namespace patchlight {
 
-// The bytes of a file, at most bytes_max; `-` is standard input. Throws UserError: cannot-open, not-a-regular-file,
-// file-too-large.
+// The bytes of a file, at most bytes_max; `-` is standard input. Throws UserError: cannot-open,
+// not-a-regular-file, file-too-large.
 std::string read_bytes(const std::string& path, size_t bytes_max = kSceneBytesMax);
 
 // Checks messages.files[file].text in place: size, UTF-8 (a byte order mark is cut off), control characters,

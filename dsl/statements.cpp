@@ -106,11 +106,10 @@ bool next_number(Messages& messages, StatementReader& reader, double& value) {
   if (printed || (whole && error == std::errc{} && !std::isfinite(value)))
     return fail("non-finite", fmt::format("expected a finite number, got '{}'", escape_text(word)));
   if (!whole)
-    return fail("mesh-invalid", fmt::format("expected a number like 2, -0.5 or 1e-3, got '{}'{}",
-                                            escape_text(word),
-                                            word.find(',') != std::string_view::npos
-                                                ? "; decimals have a point, not a comma"
-                                                : ""));
+    return fail(
+        "mesh-invalid",
+        fmt::format("expected a number like 2, -0.5 or 1e-3, got '{}'{}", escape_text(word),
+                    word.find(',') != std::string_view::npos ? "; decimals have a point, not a comma" : ""));
   if (error == std::errc::result_out_of_range) {
     const size_t exponent = digits.find_first_of("eE");
     const bool small = (exponent != std::string_view::npos && digits.substr(exponent + 1).starts_with('-')) ||
