@@ -158,7 +158,7 @@ bool copy_rings(Subject& subject, FlatPolygon& polygon) {
     }
   polygon.points.clear();
   polygon.ring_first.assign(1, 0);
-  polygon.only_triangles = false;
+  polygon.of_mesh = polygon.only_triangles = false;
   const double largest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(largest_side > 0))
     return report(subject, subject.ring_place(0), "zero-area",
@@ -240,6 +240,8 @@ bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& o
 
 MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon) {
   polygon.points.clear();
+  polygon.of_mesh = true;
+  polygon.only_triangles = false;
   if (corners.size() < 3) return MeshFace::kNoArea;
   DVec3 low(corners[0]), high = low;
   for (const DVec3& point : corners) {
@@ -258,7 +260,6 @@ MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon)
   polygon.ring_first = {0, static_cast<uint32_t>(polygon.points.size())};
   if (!lay_flat(polygon)) return MeshFace::kNoArea;
   orient_and_measure(polygon);
-  polygon.only_triangles = polygon.off_plane > kFlatMax;
   if (!(polygon.area > kAreaMin)) return MeshFace::kNoArea;
   if (is_convex_and_small(polygon) || check_rings(polygon).fault == RingFault::kNoFault)
     return MeshFace::kSound;
