@@ -81,7 +81,7 @@ bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
   }
   if (flat_enough && !few && cut_grid(polygon, cut)) return true;
   std::vector<DVec2> flat;
-  if (flat_enough && !few && cut_rings(polygon, flat, cut)) {
+  if (flat_enough && !emits && cut_rings(polygon, flat, cut)) {
     flip_to_delaunay(flat, cut.faces);
     merge_to_quads(flat, cut.faces);
     return true;

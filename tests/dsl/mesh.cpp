@@ -218,11 +218,11 @@ TEST_CASE("materials: by the names of the OBJ file, else the mesh's own, else Kd
     CHECK(count_slug(loaded->warnings, "unused-material") <= 1);
   const Loaded wrong = load_in(folder, "  - {mesh: m.obj, materials: {steal: white, steel: whte}}\n");
   REQUIRE(wrong.errors.size() == 2);
-  check_message(wrong.errors, "unknown-material", folder / "scene.yaml", 7, 29, "did you mean 'steel'?");
+  check_message(wrong.errors, "unknown-material", folder / "scene.yaml", 7, 31, "did you mean 'steel'?");
   CHECK(wrong.errors[1].message.find("did you mean 'white'?") != std::string::npos);
   const Loaded elsewhere =
       load_in(folder, "  - {quad: {size: [1,1]}, material: white, materials: {a: white}}\n");
-  check_message(elsewhere.errors, "unknown-key", folder / "scene.yaml", 7, 57, "'mesh'");
+  check_message(elsewhere.errors, "unknown-key", folder / "scene.yaml", 7, 55, "'mesh'");
 }
 
 TEST_CASE("what an MTL file says beyond reflectance, or wrongly, is told once") {
@@ -358,7 +358,7 @@ TEST_CASE("copies of a mesh beyond the limit are refused before they are made") 
   testing::write_bytes(folder / "m.obj", kSquare + "f 1 2 3\nf 1 3 4\n");
   const Loaded loaded =
       load_in(folder, "  - {repeat: {count: 600000, step: [2,0,0], of: {mesh: m.obj}}, material: white}\n");
-  check_message(loaded.errors, "too-many-polygons", folder / "scene.yaml", 7, 59, "1000000");
+  check_message(loaded.errors, "too-many-polygons", folder / "scene.yaml", 7, 56, "1000000");
 }
 
 TEST_CASE("50 k triangles load in a moment") {
