@@ -7,9 +7,10 @@
 namespace patchlight {
 namespace {
 
-constexpr double kAspectMax = 1.5;    // longer quads are cut into near squares
-constexpr double kAspectMaxLamp = 4;  // lamps only above this, into pieces of at most this
+constexpr double kAspectMax = 1.5;   // longer quads are cut into near squares
+constexpr double kAspectMaxFew = 4;  // lamps and meshes only above this, into pieces of about this
 constexpr size_t kPiecesMax = 1024;
+constexpr size_t kPiecesMaxMesh = 8;
 
 std::array<DVec2, 4> flat_quad(const FlatPolygon& polygon) {
   return {polygon.flat[0], polygon.flat[1], polygon.flat[2], polygon.flat[3]};
@@ -28,15 +29,16 @@ void cut_at_diagonal(const FlatPolygon& polygon, CutFaces& cut) {
 }
 
 // A quad, whole or as a row of pieces along its long side.
-void cut_quad(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
+void cut_quad(const FlatPolygon& polygon, bool few, CutFaces& cut) {
   const std::array<DVec2, 4> q = flat_quad(polygon);
   const double length = (glm::length(q[1] - q[0]) + glm::length(q[2] - q[3])) / 2;
   const double width = (glm::length(q[2] - q[1]) + glm::length(q[3] - q[0])) / 2;
   const double aspect = std::max(length, width) / std::min(length, width);
   size_t pieces = 1;
-  if (emits && aspect > kAspectMaxLamp) pieces = static_cast<size_t>(std::ceil(aspect / kAspectMaxLamp));
-  if (!emits && aspect > kAspectMax) pieces = static_cast<size_t>(std::lround(std::min(aspect, 1e6)));
-  pieces = std::min(pieces, kPiecesMax);
+  if (few && aspect > kAspectMaxFew)
+    pieces = static_cast<size_t>(std::ceil(std::min(aspect, 1e6) / kAspectMaxFew));
+  if (!few && aspect > kAspectMax) pieces = static_cast<size_t>(std::lround(std::min(aspect, 1e6)));
+  pieces = std::min(pieces, polygon.of_mesh ? kPiecesMaxMesh : kPiecesMax);
   // Corners 0, 1 and 3, 2 are the ends of the two long sides.
   std::array<uint32_t, 4> corner = {0, 1, 2, 3};
   if (width > length) corner = {1, 2, 3, 0};
@@ -62,8 +64,9 @@ void cut_quad(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
 bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
   cut.points = polygon.points;
   cut.faces.clear();
-  const bool flat_enough = polygon.off_plane <= kFlatMax;
+  const bool flat_enough = polygon.off_plane <= kFlatMax && !polygon.only_triangles;
   const bool one_ring = polygon.ring_count() == 1;
+  const bool few = emits || polygon.of_mesh;
   if (one_ring && polygon.points.size() == 3) {
     cut.faces.push_back({0, 1, 2, 2});
     return true;
@@ -71,12 +74,12 @@ bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
   if (one_ring && polygon.points.size() == 4) {
     const double ratio = jacobian_ratio(flat_quad(polygon));
     if (flat_enough && ratio <= kJacobianRatioMax)
-      cut_quad(polygon, emits, cut);
+      cut_quad(polygon, few, cut);
     else
       cut_at_diagonal(polygon, cut);
     return true;
   }
-  if (flat_enough && !emits && cut_grid(polygon, cut)) return true;
+  if (flat_enough && !few && cut_grid(polygon, cut)) return true;
   std::vector<DVec2> flat;
   if (flat_enough && !emits && cut_rings(polygon, flat, cut)) {
     flip_to_delaunay(flat, cut.faces);

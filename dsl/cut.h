@@ -13,7 +13,8 @@ struct CutFaces {
 
 // Cuts a polygon into faces that share whole edges or nothing: a quad near a parallelogram stays or becomes a
 // row of pieces, a rectilinear polygon becomes a grid, everything else triangles joined to quads where these
-// are well shaped. `emits`: each face is a lamp of its own, so few faces are made. False when the polygon is
+// are well shaped. `emits`: each face is a lamp of its own, so few faces are made; and
+// few of a mesh, which has many as it is. False when the polygon is
 // degenerate. `cut` is written; its memory is reused.
 bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut);
 

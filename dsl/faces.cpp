@@ -53,8 +53,26 @@ void add_sums(const FlatPolygon& flat, uint32_t p, Sums& sums) {
   }
 }
 
+// Lays polygon p flat by the rules for scenes or those for meshes. False where nothing is to be cut.
+bool flatten(Messages& messages, const Tree& tree, const ObjectTable& objects, const OutlineTable& outlines,
+             uint32_t p, FlatPolygon& flat) {
+  if (!objects.is_mesh[outlines.object[p]]) return flatten_polygon(messages, tree, outlines, p, flat);
+  const uint32_t ring = outlines.polygon_first[p];
+  const auto corners =
+      std::span(outlines.corners)
+          .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
+  for (const DVec3& c : corners)
+    if (!(std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}) <= kCoordinateMax)) {
+      add_error(messages, place_of(tree, outlines.ring_node[ring]), "coordinate-too-large",
+                fmt::format("'{}': a corner of it is beyond the limit of {:g}", escape_text(outlines.id[p]),
+                            kCoordinateMax));
+      return false;
+    }
+  return flatten_mesh_face(corners, flat) != MeshFace::kNoArea;
+}
+
 CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& materials,
-                 const OutlineTable& outlines, Sums& sums) {
+                 const ObjectTable& objects, const OutlineTable& outlines, Sums& sums) {
   CutTable table;
   FlatPolygon flat;
   CutFaces cut;
@@ -62,11 +80,12 @@ CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& mate
     cut.points.clear();
     cut.faces.clear();
     DVec3 normal(0);
-    if (flatten_polygon(messages, tree, outlines, p, flat)) {
+    if (flatten(messages, tree, objects, outlines, p, flat)) {
       // No material: an error was reported, and the polygon is only checked.
       const uint32_t material = outlines.material[p];
       const DRgb emission = material == kNone ? DRgb(0) : materials.emission[material];
-      if (!cut_polygon(flat, std::max({emission.r, emission.g, emission.b}) > 0, cut))
+      const bool is_cut = cut_polygon(flat, std::max({emission.r, emission.g, emission.b}) > 0, cut);
+      if (!is_cut && !objects.is_mesh[outlines.object[p]])
         add_error(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]),
                   "self-intersecting",
                   fmt::format("'{}' cannot be cut: parts of it are too close to each other",
@@ -135,13 +154,15 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
           (table.points[table.point_first[p] + table.faces[f][k]] - scene.origin) / scene.units_per_length;
       row.corners[k] = Vec3(corners[k]);
     }
-    if (float_normal(row.corners, table.normal[p]) == DVec3(0)) continue;
-    // Faces of a polygon that is a little off plane have normals of their own.
+    // Faces of a polygon that is off plane have normals of their own.
     const DVec3 own = glm::cross((corners[2] - corners[0]), corners[3] - corners[1]);
     const DVec3 triangle = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const DVec3 exact = row.corner_count == 3 ? triangle : own;
     const double length = glm::length(exact);
-    row.normal = Vec3(length > 0 ? exact / length : table.normal[p]);
+    const DVec3 normal = length > 0 ? exact / length : table.normal[p];
+    if (!(glm::dot(normal, table.normal[p]) > 0)) continue;
+    if (float_normal(row.corners, normal) == DVec3(0)) continue;
+    row.normal = Vec3(normal);
     rows.push_back(row);
   }
 }
@@ -200,7 +221,7 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
                 Scene& scene) {
   Sums sums;
-  const CutTable table = cut_all(messages, tree, materials, outlines, sums);
+  const CutTable table = cut_all(messages, tree, materials, objects, outlines, sums);
   if (messages.error_count > 0 || sums.area == 0) return;
   check_start_patches(messages, tree, table, objects, outlines, start_patches_max);
   if (sums.largest > kSizeRatioMax * sums.smallest)
@@ -210,7 +231,7 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                             "precision may lose it",
                             escape_text(outlines.id[sums.smallest_polygon]), sums.largest / sums.smallest,
                             kSizeRatioMax));
-  warn_of_coincident(messages, tree, outlines);
+  warn_of_coincident(messages, tree, objects, outlines);
   set_units(sums, scene);
   scene.polygons.face_first.assign(1, 0);
   std::vector<FaceRow> rows;
@@ -218,7 +239,8 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
     add_polygon_faces(table, materials, objects, outlines, tree, p, rows, scene);
 }
 
-void warn_of_coincident(Messages& messages, const Tree& tree, const OutlineTable& outlines) {
+void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable& objects,
+                        const OutlineTable& outlines) {
   struct Row {
     uint64_t hash;
     uint32_t polygon;
@@ -249,13 +271,27 @@ void warn_of_coincident(Messages& messages, const Tree& tree, const OutlineTable
     if (rows[k].hash == rows[k - 1].hash && ring(rows[k].polygon).size() == ring(rows[k - 1].polygon).size())
       found.push_back({rows[k - 1].polygon, rows[k].polygon});
   std::sort(found.begin(), found.end(), [](const Row& a, const Row& b) { return a.polygon < b.polygon; });
-  for (const Row& row : found)
+  std::vector<uint32_t> in_mesh(objects.size(), 0);  // pairs within one mesh
+  for (const Row& row : found) {
+    const uint32_t object = outlines.object[row.polygon];
+    if (objects.is_mesh[object] && outlines.object[static_cast<uint32_t>(row.hash)] == object) {
+      ++in_mesh[object];
+      continue;
+    }
     add_warning(
         messages, place_of(tree, outlines.ring_node[outlines.polygon_first[row.polygon]]), "coincident",
         fmt::format(
             "'{}' lies on '{}': the same corners; light and shadow between the two are left to rounding",
             escape_text(outlines.id[row.polygon]),
             escape_text(outlines.id[static_cast<uint32_t>(row.hash)])));
+  }
+  for (uint32_t object = 0; object < objects.size(); ++object)
+    if (in_mesh[object] > 0)
+      add_warning(
+          messages, place_of(tree, objects.node[object]), "coincident",
+          fmt::format("{} faces of this mesh lie on others of it; light and shadow between the two are "
+                      "left to rounding",
+                      in_mesh[object]));
 }
 
 }  // namespace patchlight

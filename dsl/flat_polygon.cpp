@@ -158,6 +158,7 @@ bool copy_rings(Subject& subject, FlatPolygon& polygon) {
     }
   polygon.points.clear();
   polygon.ring_first.assign(1, 0);
+  polygon.of_mesh = polygon.only_triangles = false;
   const double largest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(largest_side > 0))
     return report(subject, subject.ring_place(0), "zero-area",
@@ -235,6 +236,35 @@ bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& o
             "'{}': corners lie up to {:.2g} % of the polygon's size off one plane; cut into triangles",
             escape_text(outlines.id[p]), polygon.off_plane * 100));
   return true;
+}
+
+MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon) {
+  polygon.points.clear();
+  polygon.of_mesh = true;
+  polygon.only_triangles = false;
+  if (corners.size() < 3) return MeshFace::kNoArea;
+  DVec3 low(corners[0]), high = low;
+  for (const DVec3& point : corners) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  const double largest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  if (!(largest_side > 0)) return MeshFace::kNoArea;
+  polygon.size = glm::length((high - low) / largest_side) * largest_side;
+  const auto same = [&](DVec3 a, DVec3 b) { return glm::length(a - b) <= kRepeated * polygon.size; };
+  for (const DVec3& point : corners)
+    if (polygon.points.empty() || !same(point, polygon.points.back())) polygon.points.push_back(point);
+  while (polygon.points.size() > 1 && same(polygon.points.back(), polygon.points[0]))
+    polygon.points.pop_back();
+  if (polygon.points.size() < 3) return MeshFace::kNoArea;
+  polygon.ring_first = {0, static_cast<uint32_t>(polygon.points.size())};
+  if (!lay_flat(polygon)) return MeshFace::kNoArea;
+  orient_and_measure(polygon);
+  if (!(polygon.area > kAreaMin)) return MeshFace::kNoArea;
+  if (is_convex_and_small(polygon) || check_rings(polygon).fault == RingFault::kNoFault)
+    return MeshFace::kSound;
+  polygon.only_triangles = true;
+  return MeshFace::kCrossing;
 }
 
 }  // namespace patchlight

@@ -5,6 +5,8 @@
 #include "outlines.h"
 #include "tree.h"
 
+#include <span>
+
 namespace patchlight {
 
 // A polygon without repeated corners, on its own plane. Rings are the outline, counter-clockwise, then the
@@ -17,7 +19,9 @@ struct FlatPolygon {
   double size = 0;                                   // diagonal of the corners' bounding box, file units
   double area = 0;                                   // holes taken off, in units of size squared
   DVec2 centroid{0};                                 // in units of size
-  double off_plane = 0;  // largest distance of a corner from the plane, in units of size
+  double off_plane = 0;         // largest distance of a corner from the plane, in units of size
+  bool of_mesh = false;         // a face of a mesh: it is cut as little as possible
+  bool only_triangles = false;  // its outline touches itself: no quads, no rings
   size_t ring_count() const { return ring_first.size() - 1; }
 };
 
@@ -29,6 +33,13 @@ constexpr double kNonPlanarMax = 0.02;  // off_plane up to which it is cut into 
 // repeated-vertex, closed-ring, non-planar. `polygon` is written; its memory is reused from call to call.
 bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
                      FlatPolygon& polygon);
+
+enum class MeshFace : uint8_t { kSound, kNoArea, kCrossing };
+
+// The same for a face of a mesh, without a word: corners that repeat are left out, and corners may lie off
+// one plane by any distance. An outline that touches itself may be a hole that a seam joins to it, which can
+// be cut, or cross itself: only cutting it tells.
+MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon);
 
 // Twice the signed area of the triangle a, b, c: above 0 when counter-clockwise.
 inline double turn(DVec2 a, DVec2 b, DVec2 c) {

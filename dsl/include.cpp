@@ -2,6 +2,7 @@
 #include "include.h"
 
 #include "limits.h"
+#include "scene_path.h"
 #include "source.h"
 
 #include <fmt/format.h>
@@ -19,51 +20,17 @@ namespace fs = std::filesystem;
 struct Reader {
   const Context& context;
   Tree& tree;
-  fs::path root_folder;         // canonical
   int64_t unit = 0;             // choice of `units` in the scene itself
   std::vector<fs::path> chain;  // files that are being read, canonical, the scene first
   std::set<std::pair<std::string, std::string>> read;  // canonical path and prefix
   std::vector<SceneFile> files;
 };
 
-bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-// The canonical path of an included file; empty after an error.
-fs::path find_file(const Reader& reader, uint32_t node, const std::string& name) {
-  const auto fail = [&](std::string_view slug, std::string message) {
-    add_error(reader.context.messages, place_of(reader.tree, node), slug, std::move(message));
-    return fs::path{};
-  };
-  const std::string shown = escape_text(name);
-  if (name.find("://") != std::string::npos)
-    return fail("include-not-found",
-                fmt::format("'{}': only files are included, there is no network access", shown));
-  if (fs::path(name).is_absolute())
-    return fail("include-outside-root",
-                fmt::format("'{}': includes are relative, inside the scene's folder", shown));
-  const fs::path folder = reader.chain.back().parent_path();
-  std::error_code error;
-  const fs::path found = fs::weakly_canonical(folder / name, error);
-  if (!error && !is_below(found, reader.root_folder))
-    return fail("include-outside-root", fmt::format("'{}' lies outside of the scene's folder", shown));
-  if (error || !fs::exists(found, error))
-    return fail("include-not-found",
-                fmt::format("no file '{}'; looked in {}", shown, escape_text(folder.string(), 200)));
-  return found;
-}
-
 // Reads and parses a file; kNone after errors.
 uint32_t parse_file(Reader& reader, uint32_t node, const fs::path& path) {
   Messages& messages = reader.context.messages;
-  const auto file = static_cast<uint32_t>(messages.files.size());
-  try {
-    messages.files.push_back({fs::relative(path, reader.root_folder).string(), read_bytes(path.string())});
-  } catch (const UserError& error) {
-    add_error(messages, place_of(reader.tree, node), error.diagnostics[0].slug, error.diagnostics[0].message);
-    return kNone;
-  }
+  const uint32_t file = add_scene_file(messages, place_of(reader.tree, node), path, kSceneBytesMax);
+  if (file == kNone) return kNone;
   if (!check_source(messages, file)) return kNone;
   const uint32_t root = parse_tree(messages, file, reader.tree);
   if (root != kNone && reader.tree.nodes[root].kind != NodeKind::kMap) {
@@ -100,7 +67,8 @@ void read_entry(Reader& reader, uint32_t entry, const std::string& outer) {
   } else if (!read_text(reader.context, entry, name)) {
     return;
   }
-  const fs::path path = find_file(reader, place, name);
+  const fs::path path = find_scene_file(reader.context.messages, place_of(reader.tree, place), name,
+                                        reader.chain.back().parent_path(), "include-not-found");
   if (path.empty()) return;
   const auto fail = [&](std::string_view slug, std::string message) {
     add_error(reader.context.messages, place_of(reader.tree, place), slug, std::move(message));
@@ -143,7 +111,8 @@ std::vector<SceneFile> read_includes(const Context& context, Tree& tree, uint32_
   std::error_code error;
   const fs::path scene =
       fs::weakly_canonical(fs::absolute(path == "." ? fs::path("-") : fs::path(path), error), error);
-  Reader reader{context, tree, scene.parent_path(), 0, {scene}, {}, {}};
+  context.messages.files[0].folder = scene.parent_path().string();
+  Reader reader{context, tree, 0, {scene}, {}, {}};
   read_file(reader, root, "");
   return std::move(reader.files);
 }

@@ -101,6 +101,8 @@ constexpr KeyRow kSharedObjectRows[] = {
     {"id", kName, false, "", 0, 0, "bad-id", "", "Name of the object. Absent: object1, object2 ..."},
     {"material", kText, false, "", 0, 0, "", "", "Name of its material."},
     {"holes", kList, false, "", 0, 0, "", "", "With polygon: lists of corners, each one a hole."},
+    {"materials", kMap, false, "", 0, 0, "", "*",
+     "With mesh: materials by the names that the OBJ file gives them."},
     {"transform", kList, false, "", 0, 0, "", "transform",
      "Steps in order, each one of translate, rotate, scale."},
     {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",

@@ -7,6 +7,7 @@
 namespace patchlight {
 
 constexpr size_t kSceneBytesMax = 32u << 20;
+constexpr size_t kMeshBytesMax = 256u << 20;  // of one OBJ or MTL file
 constexpr uint32_t kNestingMax = 64;
 constexpr uint64_t kNodesMax = 2'000'000;
 constexpr uint64_t kAliasNodesMax = 1'000'000;

@@ -35,6 +35,7 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
     materials.used.push_back(0);
     key = tree.nodes[value].next;
   }
+  materials.named_count = materials.size();
 }
 
 uint32_t find_material(const Context& context, uint32_t node, MaterialTable& materials) {
@@ -47,13 +48,14 @@ uint32_t find_material(const Context& context, uint32_t node, MaterialTable& mat
     }
   std::string message = fmt::format("no material '{}'", escape_text(name));
   if (wants_errors(context.messages)) {
-    if (const std::string near = did_you_mean(name, materials.name); !near.empty())
+    const std::vector<std::string> names(
+        materials.name.begin(), materials.name.begin() + static_cast<ptrdiff_t>(materials.named_count));
+    if (const std::string near = did_you_mean(name, names); !near.empty())
       message += fmt::format("; did you mean '{}'?", near);
     std::string known;
-    for (size_t k = 0; k < std::min<size_t>(materials.size(), 12); ++k)
-      known += (k ? ", " : "") + materials.name[k];
-    message += materials.size() == 0 ? "; the scene has no materials" : fmt::format(" known: {}", known);
-    if (materials.size() > 12) message += ", ...";
+    for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k) known += (k ? ", " : "") + names[k];
+    message += names.empty() ? "; the scene has no materials" : fmt::format(" known: {}", known);
+    if (names.size() > 12) message += ", ...";
   }
   add_error(context.messages, place_of(context.tree, node), "unknown-material", std::move(message));
   return kNone;

@@ -18,6 +18,7 @@ struct MaterialTable {
   std::vector<uint32_t> node;     // of its name
   std::vector<uint8_t> used;
   std::unordered_map<std::string, uint32_t> row_of;
+  size_t named_count = 0;  // rows that the scene gave; those of meshes follow
   size_t size() const { return name.size(); }
 };
 

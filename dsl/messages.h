@@ -16,6 +16,7 @@ struct SourceFile {
   std::string name;
   std::string text;
   bool command_line = false;
+  std::string folder = {};  // canonical, for the paths that it names; empty: the scene's
 };
 
 // A place in a file. line and column are 1-based; column counts bytes (messages count characters).

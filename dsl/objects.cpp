@@ -47,9 +47,10 @@ bool read_own(const Context& context, const MapValues& map, MaterialTable& mater
   return true;
 }
 
-uint32_t add_object(uint32_t node, const Inherited& own, ObjectTable& objects) {
+uint32_t add_object(uint32_t node, const Inherited& own, bool is_mesh, ObjectTable& objects) {
   objects.node.push_back(node);
   objects.two_sided.push_back(own.two_sided);
+  objects.is_mesh.push_back(is_mesh);
   objects.patch_size.push_back(own.patch_size);
   objects.subdivide.push_back(own.subdivide);
   objects.subdivide_node.push_back(own.subdivide_node);
@@ -69,6 +70,11 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
               fmt::format("'holes' goes with 'polygon', not with '{}'", shape->name));
     return;
   }
+  if (has(map, "materials") && shape->name != "mesh") {
+    add_error(context.messages, place_of(context.tree, value_of(map, "materials").node), "unknown-key",
+              fmt::format("'materials' goes with 'mesh', not with '{}'", shape->name));
+    return;
+  }
   Inherited own = inherited;
   if (!read_own(context, map, scene.materials, own)) return;
   Transform transform;
@@ -77,7 +83,8 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   const uint32_t id_node = value_of(map, "id").node;
   const std::string id =
       id_node != kNone ? name.prefix + std::string(text_of(context.tree, id_node)) : name.unnamed;
-  const uint32_t row = add_object(id_node != kNone ? id_node : node, own, scene.objects);
+  const uint32_t row =
+      add_object(id_node != kNone ? id_node : node, own, shape->name == "mesh", scene.objects);
   const size_t first = scene.outlines.size();
   shape->build({context, map, value_of(map, shape->name).node, id, own, row, scene});
   if (moved) apply_transform(transform, node, first, scene.outlines);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials.h"
+#include "mesh.h"
 #include "outlines.h"
 
 #include <string>
@@ -20,6 +21,7 @@ struct Inherited {
 // All that the objects of a scene become.
 struct SceneObjects {
   MaterialTable materials;
+  MeshFiles meshes;
   ObjectTable objects;
   OutlineTable outlines;
 };

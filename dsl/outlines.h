@@ -14,6 +14,7 @@ namespace patchlight {
 struct ObjectTable {
   std::vector<uint32_t> node;  // tree node of its id, or of the object where it has none
   std::vector<uint8_t> two_sided;
+  std::vector<uint8_t> is_mesh;     // its polygons are faces of a mesh: bent or thin ones are no mistakes
   std::vector<double> patch_size;   // file units; 0: as the settings say
   std::vector<uint32_t> subdivide;  // 1: not asked
   std::vector<uint32_t> subdivide_node;

@@ -21,6 +21,7 @@ std::span<const ShapeRow> shape_rows() {
       {"cylinder", &kCylinderKeys, build_cylinder, "An upright cylinder of flat sides."},
       {"prism", &kPrismKeys, build_prism, "A polygon pushed along its normal."},
       {"sphere", &kSphereKeys, build_sphere, "A sphere of flat sides, its corners on the sphere."},
+      {"mesh", nullptr, build_mesh, "Path of a Wavefront OBJ file: a polygon for each of its faces."},
       {"group", nullptr, build_group, "A list of objects that share a transform and settings."},
       {"repeat", &kRepeatKeys, build_repeat,
        "Copies of an object, in rows or by a transform applied again and again."},

@@ -63,6 +63,7 @@ void build_disk(const ShapeInput& input);
 void build_cylinder(const ShapeInput& input);
 void build_prism(const ShapeInput& input);
 void build_sphere(const ShapeInput& input);
+void build_mesh(const ShapeInput& input);
 void build_group(const ShapeInput& input);
 void build_repeat(const ShapeInput& input);
 extern const KeyTable kGridKeys;

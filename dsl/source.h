@@ -1,15 +1,16 @@
 // Files and bytes to checked text: what reaches the YAML parser is UTF-8 without surprises.
 #pragma once
 
+#include "limits.h"
 #include "messages.h"
 
 #include <string>
 
 namespace patchlight {
 
-// The bytes of a file; `-` is standard input. Throws UserError: cannot-open, not-a-regular-file,
-// file-too-large.
-std::string read_bytes(const std::string& path);
+// The bytes of a file, at most bytes_max; `-` is standard input. Throws UserError: cannot-open,
+// not-a-regular-file, file-too-large.
+std::string read_bytes(const std::string& path, size_t bytes_max = kSceneBytesMax);
 
 // Checks messages.files[file].text in place: size, UTF-8 (a byte order mark is cut off), control characters,
 // then quotes, brackets and tabs by a light scan of YAML (see prescan.h). False and one error or more when

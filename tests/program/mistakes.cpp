@@ -59,6 +59,20 @@ TEST_CASE("a wrong scene ends with 3, its place and nothing written") {
   CHECK(!std::filesystem::exists(folder / "lit"));
 }
 
+TEST_CASE("a mesh that is missing ends with 4, one that is wrong with 3 and its place in the OBJ file") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", std::string(kBoxScene) + "  - {mesh: model.obj, material: white}\n");
+  const ChildResult missing = run_child({"check", folder / "box.yaml"});
+  CHECK(missing.exit_code == 4);
+  CHECK(has(missing.err, "box.yaml:9:12: error[cannot-open]"));
+  write_bytes(folder / "model.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n");
+  const ChildResult wrong = run_child({"check", folder / "box.yaml"});
+  CHECK(wrong.exit_code == 3);
+  CHECK(has(wrong.err, "model.obj:3:3: error[non-finite]"));
+  write_bytes(folder / "model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(run_child({"check", folder / "box.yaml"}).exit_code == 0);
+}
+
 TEST_CASE("check --json lists the messages on standard output") {
   const Folder folder;
   std::string scene = kBoxScene;
