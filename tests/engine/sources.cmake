@@ -7,6 +7,7 @@ set(ENGINE_TEST_SOURCES
   engine/ledger.cpp
   engine/parallel.cpp
   engine/quadtree.cpp
+  engine/ray_tape.cpp
   engine/refine.cpp
   engine/rows.cpp
   engine/solve.cpp

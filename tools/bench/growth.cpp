@@ -71,7 +71,8 @@ Json measure_growth(const BenchOptions& options, Talk& talk) {
   for (uint64_t count = std::min(options.max_patches, kFinest);
        (count >= kCoarsest || counts.size() < kStepsMin) && count > 0; count /= kFactor)
     counts.insert(counts.begin(), count);
-  Json section = {{"scene", options.scenes.front()}, {"threads", options.threads}, {"steps", Json::array()}};
+  Json section = {{"scene", options.scenes.front()}, {"threads", options.threads}};
+  Json steps = Json::array();
   for (const uint64_t count : counts) {
     const auto settings = settings_for_count(scene.faces, scene.solver, count);
     if (!settings) continue;  // the scene has too many faces for so few patches
@@ -82,15 +83,22 @@ Json measure_growth(const BenchOptions& options, Talk& talk) {
       break;
     }
     say_progress(talk, fmt::format("growth: up to {} patches", count));
-    section["steps"].push_back(measure_step(scene, *settings, options));
+    steps.push_back(measure_step(scene, *settings, options));
   }
-  const Json& steps = section["steps"];
+  section["steps"] = steps;
   if (steps.size() < 2 || steps.front()["patches"] == steps.back()["patches"]) return section;
   for (const char* column : {"processor_seconds", "wall_seconds"}) {
     const double exponent = fit_exponent(steps, column);
     section["exponent"][column] = exponent;
     section["tenfold"][column] = std::pow(10.0, exponent);
   }
+  // A start that costs the same at any size flatters the fit: the steepest step has less of it.
+  double steepest = 0;
+  for (size_t k = 1; k < steps.size(); ++k)
+    if (steps[k]["patches"] > steps[k - 1]["patches"])
+      steepest = std::max(steepest, fit_exponent(Json::array({steps[k - 1], steps[k]}), "processor_seconds"));
+  section["exponent"]["steepest_step"] = steepest;
+  section["tenfold"]["steepest_step"] = std::pow(10.0, steepest);
   // What a patch adds, without what the program takes anyway.
   section["bytes_per_added_patch"] =
       (steps.back()["bytes_peak"]["median"].get<double>() -
@@ -111,10 +119,12 @@ std::string format_growth(const Json& section) {
   if (section.contains("exponent"))
     text += fmt::format(
         "  10x the patches: {:.1f}x the CPU time (exponent {:.3f}), {:.1f}x the wall time "
-        "({:.3f}); {:.0f} bytes an added patch\n",
+        "({:.3f})\n"
+        "  in the steepest step {:.1f}x the CPU time ({:.3f}); {:.0f} bytes an added patch\n",
         section["tenfold"]["processor_seconds"].get<double>(),
         section["exponent"]["processor_seconds"].get<double>(),
         section["tenfold"]["wall_seconds"].get<double>(), section["exponent"]["wall_seconds"].get<double>(),
+        section["tenfold"]["steepest_step"].get<double>(), section["exponent"]["steepest_step"].get<double>(),
         section["bytes_per_added_patch"].get<double>());
   return text;
 }

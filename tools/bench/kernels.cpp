@@ -90,8 +90,7 @@ Bench make_bench(const std::string& path, uint64_t max_patches) {
   Scene scene = load_quietly(path);
   Tracer tracer = make_tracer(scene.faces);
   Bench b{.scene = std::move(scene), .tracer = std::move(tracer)};
-  b.settings = b.scene.solver;
-  b.settings.patch_count_max = std::min(b.settings.patch_count_max, max_patches);
+  b.settings = settings_within(b.scene, max_patches);
   const FaceTable& faces = b.scene.faces;
   b.start = make_solution(faces, b.tracer, b.settings);
   b.refined = b.start;
@@ -165,8 +164,8 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                     [&] { return static_cast<double>(direct_light(scratch, b)); }, {});
   add_ray_kernels(kernels, "cast_rows", b, tapes.rows.nearest, false,
                   [&] { return static_cast<double>(rows_of_patches(scratch, b)); }, {});
-  if (tapes.aimed.nearest.ray_count > 0)
-    add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.nearest, false,
+  if (tapes.aimed.visibility.ray_count > 0)
+    add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.visibility, true,
                     [&] { return static_cast<double>(second_pass(scratch, b)); }, {});
 
   const auto factors = static_cast<double>(b.passed.hits.patch.size());
@@ -174,7 +173,7 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                        gather_patches(scratch.irradiance, {}, b.passed.hits, b.passed.patches.unshot);
                        return factors;
                      }});
-  kernels.push_back({"memory read", "bytes/s", threads, Clock::kWall, [&] {
+  kernels.push_back({"memory read", "B/s", threads, Clock::kWall, [&] {
                        std::atomic<uint64_t> sum{0};
                        for_rows(kMemoryWords, 1 << 16, [&](size_t begin, size_t end) {
                          sum +=
@@ -183,7 +182,7 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                        // Nothing of it is left out by the compiler: the sum decides.
                        return sum == kMemoryWords ? 8.0 * kMemoryWords : 0.0;
                      }});
-  kernels.push_back({"memory copy, read and written", "bytes/s", threads, Clock::kWall, [&] {
+  kernels.push_back({"memory copy, read and written", "B/s", threads, Clock::kWall, [&] {
                        for_rows(kMemoryWords, 1 << 16, [&](size_t begin, size_t end) {
                          std::memcpy(&scratch.memory[begin], &b.memory[begin], 8 * (end - begin));
                        });
@@ -220,7 +219,7 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                        expose(b.film, b.vertex_values);
                        return pixels;
                      }});
-  kernels.push_back({"encode_png, of raw pixels", "bytes/s", 1, Clock::kProcessor,
+  kernels.push_back({"encode_png, of raw pixels", "B/s", 1, Clock::kProcessor,
                      [&, pixels] { return encode_png(b.picture).empty() ? 0.0 : 3 * pixels; }});
   return kernels;
 }

@@ -83,8 +83,7 @@ double find_bare_seconds(const Tracer& tracer, const TapeTrack& track,
 Json solve_on_tape(const std::string& path, uint64_t max_patches) {
   set_thread_count(1);
   const Scene scene = load_quietly(path);
-  SolverSettings settings = scene.solver;
-  settings.patch_count_max = max_patches;
+  const SolverSettings settings = settings_within(scene, max_patches);
   const Tracer tracer = make_tracer(scene.faces);
   RayTape tape;
   record_rays(tracer, &tape);
@@ -104,7 +103,7 @@ Json solve_on_tape(const std::string& path, uint64_t max_patches) {
 }
 
 Json measure_scene(const std::string& path, const BenchOptions& options, Talk& talk) {
-  const uint64_t max_patches = std::min(load_quietly(path).solver.patch_count_max, options.max_patches);
+  const uint64_t max_patches = settings_within(load_quietly(path), options.max_patches).patch_count_max;
   std::vector<Json> reports;
   for (size_t k = 0; k < options.repetitions; ++k) {
     say_progress(talk, fmt::format("{}: run {} of {}", path, k + 1, options.repetitions));

@@ -3,6 +3,7 @@
 
 #include "dsl/load.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -74,6 +75,18 @@ Times operator-(Times end, Times begin) { return {end.wall - begin.wall, end.pro
 Scene load_quietly(const std::string& path) {
   std::vector<Diagnostic> warnings;
   return load_scene(path, warnings);
+}
+
+SolverSettings settings_within(const Scene& scene, uint64_t max_patches) {
+  SolverSettings settings = scene.solver;
+  settings.patch_count_max = std::min(settings.patch_count_max, max_patches);
+  const uint64_t start = count_starting_patches(scene.faces, settings);
+  if (start > settings.patch_count_max)
+    throw UserError("too-many-patches",
+                    fmt::format("the scene starts with {} patches; the limit is {}; raise --max-patches",
+                                start, settings.patch_count_max),
+                    scene.file);
+  return settings;
 }
 
 Solution solve_whole(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {

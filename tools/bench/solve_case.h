@@ -18,6 +18,9 @@ Times operator-(Times end, Times begin);
 // Warnings are not repeated: the verb has said them.
 Scene load_quietly(const std::string& path);
 
+// The scene's own settings with a budget of at most `max_patches`. Throws UserError (too-many-patches).
+SolverSettings settings_within(const Scene& scene, uint64_t max_patches);
+
 // From starting patches to the last pass.
 Solution solve_whole(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
 

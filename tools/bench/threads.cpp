@@ -39,7 +39,8 @@ std::vector<size_t> list_thread_counts(size_t most) {
 Json measure_threads(const BenchOptions& options, Talk& talk) {
   const Scene scene = load_quietly(options.scenes.front());
   const uint64_t count = std::min(options.max_patches, kLarge);
-  const SolverSettings settings = settings_for_count(scene.faces, scene.solver, count).value_or(scene.solver);
+  const auto finer = settings_for_count(scene.faces, scene.solver, count);
+  const SolverSettings settings = finer ? *finer : settings_within(scene, options.max_patches);
   const std::vector<size_t> thread_counts = list_thread_counts(options.threads);
   const size_t rounds = std::min(options.repetitions, kRunsMax);
   std::vector<std::vector<double>> wall(thread_counts.size()), processor = wall, speedup = wall;
