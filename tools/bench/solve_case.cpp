@@ -13,9 +13,6 @@
 namespace patchlight {
 namespace {
 
-// Half of the patches from the start, four halvings for the rounds: shadow edges have room to be found.
-constexpr float kLeastShare = 1 / 16.0f;
-
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
@@ -110,7 +107,7 @@ std::optional<SolverSettings> settings_for_count(const FaceTable& faces, SolverS
     (count_starting_patches(faces, settings) > count / 2 ? low : high) = settings.patch_size;
   }
   settings.patch_size = high;
-  settings.patch_size_min = kLeastShare * high;
+  settings.patch_size_min = 0;  // the solver's own share of the starting size
   return settings;
 }
 
