@@ -8,6 +8,7 @@
 #include "files.h"
 #include "memory.h"
 #include "plan.h"
+#include "stop.h"
 #include "version.h"
 
 #include <fmt/chrono.h>
@@ -77,6 +78,23 @@ std::string format_noise(const Noise& noise) {
       noise.noisy_count, noise.figure_count);
 }
 
+// Prints each section as soon as it is measured.
+Json measure_sections(const BenchOptions& asked, Talk& talk) {
+  Json result = {{"patchlight", version_number()}, {"machine", describe_machine()}};
+  print_result(format_machine(result["machine"]));
+  for (const Section& section : kSections) {
+    if (std::find(asked.sections.begin(), asked.sections.end(), section.name) == asked.sections.end())
+      continue;
+    result[section.name] = section.measure(asked, talk);
+    say_progress_done(talk);
+    print_result(section.format(result[section.name]));
+  }
+  const Noise noise = find_noise(result);
+  result["noise"] = {{"figures", noise.figure_count}, {"spread_over_10_percent", noise.noisy_count}};
+  print_result(format_noise(noise));
+  return result;
+}
+
 }  // namespace
 
 int bench(const Options& options, Talk& talk) {
@@ -91,21 +109,16 @@ int bench(const Options& options, Talk& talk) {
     say_diagnostics(talk, warnings);
   }
 
-  Json result = {{"patchlight", version_number()}, {"machine", describe_machine()}};
-  print_result(format_machine(result["machine"]));
-  for (const Section& section : kSections) {
-    if (std::find(asked.sections.begin(), asked.sections.end(), section.name) == asked.sections.end())
-      continue;
-    result[section.name] = section.measure(asked, talk);
-    say_progress_done(talk);
-    print_result(section.format(result[section.name]));
+  const StopSignals signals;  // From here on there may be folders to clean up.
+  try {
+    const Json result = measure_sections(asked, talk);
+    if (!asked.json.empty()) write_file(asked.json, format_json(result));
+    const bool same = !result.contains("threads") || result["threads"]["same"].get<bool>();
+    return same ? 0 : kExitOurMistake;
+  } catch (const Cancelled&) {
+    say(talk, "stopped by a signal; nothing is written");
+    return 128 + stop_signal();
   }
-  const Noise noise = find_noise(result);
-  result["noise"] = {{"figures", noise.figure_count}, {"spread_over_10_percent", noise.noisy_count}};
-  print_result(format_noise(noise));
-  if (!asked.json.empty()) write_file(asked.json, format_json(result));
-  const bool same = !result.contains("threads") || result["threads"]["same"].get<bool>();
-  return same ? 0 : kExitOurMistake;
 }
 
 }  // namespace patchlight

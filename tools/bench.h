@@ -6,7 +6,8 @@
 
 namespace patchlight {
 
-// Returns the exit code: 0, or 70 where threads changed a solution. Throws UserError.
+// Returns the exit code: 0, 70 where threads changed a solution, 128 + the signal that stopped it. Throws
+// UserError.
 int bench(const Options& options, Talk& talk);
 
 }  // namespace patchlight

@@ -3,6 +3,8 @@
 #include "tools/json.h"
 
 #include <doctest/doctest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -95,4 +97,25 @@ TEST_CASE("bench refuses what it cannot measure before it measures") {
       run_child({"bench", folder / "box.yaml", "--only", "kernels", "--max-patches", "3"});
   CHECK(patches.exit_code == 5);
   CHECK(has(patches.err, "error[too-many-patches]"));
+}
+
+TEST_CASE("bench that is stopped by a signal leaves nothing behind") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Folder folder, temporary;
+    write_bytes(folder / "box.yaml",
+                std::string(kBoxScene) + "solver: {until: 0, passes: 10000, max_patches: 50000}\n");
+    Child child;
+    ChildSettings settings;
+    settings.environment = {{"TMPDIR", temporary.path}};
+    start_child(child, {"bench", folder / "box.yaml", "--only", "scenes", "--json", folder / "b.json"},
+                settings);
+    for (int k = 0; k < 3000 && list_names(temporary.path).empty(); ++k) usleep(10000);
+    CHECK(list_names(temporary.path).starts_with("patchlight-bench-"));
+    kill(child.process, signal);
+    const ChildResult result = finish_child(child);
+    INFO(result.err);
+    CHECK(result.exit_code == 128 + signal);
+    CHECK(list_names(temporary.path).empty());
+    CHECK(list_names(folder.path) == "box.yaml");
+  }
 }

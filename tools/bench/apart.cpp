@@ -2,7 +2,9 @@
 #include "tools/bench/apart.h"
 
 #include "dsl/diagnostics.h"
+#include "engine/parallel.h"
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,7 +19,9 @@ namespace patchlight {
 namespace {
 
 [[noreturn]] void run_child(const std::function<Json()>& body, int out) {
-  // Whoever stops the benchmark stops what it measures.
+  // Whoever stops the benchmark stops what it measures; nothing here needs to be tidied up.
+  signal(SIGINT, SIG_DFL);
+  signal(SIGTERM, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   Json answer;
   try {
@@ -42,6 +46,24 @@ namespace {
   _exit(0);
 }
 
+// All that the child writes until it ends; after a signal it ends now.
+std::string read_answer(int in, pid_t child) {
+  constexpr int kLookEvery = 200;  // milliseconds: a signal may come between looking and waiting
+  std::string text;
+  char buffer[4096];
+  while (true) {
+    if (cancel_requested()) {
+      kill(child, SIGKILL);
+      return text;
+    }
+    pollfd ready = {in, POLLIN, 0};
+    if (poll(&ready, 1, kLookEvery) <= 0) continue;
+    const ssize_t count = read(in, buffer, sizeof buffer);
+    if (count > 0) text.append(buffer, static_cast<size_t>(count));
+    if (count == 0 || (count < 0 && errno != EINTR)) return text;
+  }
+}
+
 }  // namespace
 
 Json run_apart(const std::function<Json()>& body) {
@@ -54,17 +76,12 @@ Json run_apart(const std::function<Json()>& body) {
     run_child(body, ends[1]);
   }
   close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t count; (count = read(ends[0], buffer, sizeof buffer)) != 0;)
-    if (count > 0)
-      text.append(buffer, static_cast<size_t>(count));
-    else if (errno != EINTR)
-      break;
+  const std::string text = read_answer(ends[0], child);
   close(ends[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  if (cancel_requested()) throw Cancelled{};
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     throw UserError("out-of-memory", "the system ended a measurement; lower --max-patches or --max-memory");
   const Json answer = Json::parse(text, nullptr, false);

@@ -43,7 +43,7 @@ Json measure_threads(const BenchOptions& options, Talk& talk) {
   const SolverSettings settings = finer ? *finer : settings_within(scene, options.max_patches);
   const std::vector<size_t> thread_counts = list_thread_counts(options.threads);
   const size_t rounds = std::min(options.repetitions, kRunsMax);
-  std::vector<std::vector<double>> wall(thread_counts.size()), processor = wall, speedup = wall;
+  std::vector<std::vector<double>> wall(thread_counts.size()), processor = wall, speedup = wall, cores = wall;
   Json first;
   bool same = true;
   // Round robin, so that a speedup compares neighbours in time.
@@ -56,6 +56,7 @@ Json measure_threads(const BenchOptions& options, Talk& talk) {
       wall[k].push_back(run["wall"].get<double>());
       processor[k].push_back(run["processor"].get<double>());
       speedup[k].push_back(wall[0].back() / wall[k].back());
+      cores[k].push_back(processor[k].back() / wall[k].back());
     }
   Json section = {{"scene", options.scenes.front()},
                   {"patches", first["patches"]},
@@ -66,7 +67,8 @@ Json measure_threads(const BenchOptions& options, Talk& talk) {
     section["steps"].push_back({{"threads", thread_counts[k]},
                                 {"wall_seconds", make_figure(wall[k], "s")},
                                 {"processor_seconds", make_figure(processor[k], "s")},
-                                {"speedup", make_figure(speedup[k], "")}});
+                                {"speedup", make_figure(speedup[k], "")},
+                                {"cores_used", make_figure(cores[k], "")}});
   return section;
 }
 
@@ -74,9 +76,10 @@ std::string format_threads(const Json& section) {
   std::string text = fmt::format("threads, solve of {}, {} patches\n", section["scene"].get<std::string>(),
                                  section["patches"].get<uint64_t>());
   for (const Json& row : section["steps"])
-    text += fmt::format("  {:>3} threads: wall {}, speedup {}, CPU {}\n", row["threads"].get<size_t>(),
-                        format_figure(row["wall_seconds"]), format_figure(row["speedup"]),
-                        format_figure(row["processor_seconds"]));
+    text += fmt::format("  {:>3} threads: wall {}, speedup {}, CPU {}, cores used {}\n",
+                        row["threads"].get<size_t>(), format_figure(row["wall_seconds"]),
+                        format_figure(row["speedup"]), format_figure(row["processor_seconds"]),
+                        format_figure(row["cores_used"]));
   text += section["same"].get<bool>() ? "  the same bits on all of them: " : "  DIFFERENT BITS; the first: ";
   return text + section["solution_hash"].get<std::string>() + "\n";
 }
