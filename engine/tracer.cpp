@@ -3,12 +3,15 @@
 // Wald, Woop, Benthin, Johnson, Ernst: Embree: A Kernel Framework for Efficient CPU Ray Tracing, 2014.
 #include "tracer.h"
 
+#include "ray_tape.h"
+
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -24,6 +27,7 @@ struct TracerState {
   std::vector<Vec3> normal;          // a row a face
   std::vector<uint32_t> twin;        // a row a face
   std::string error;
+  RayTape* tape = nullptr;  // see ray_tape.h
 };
 
 namespace {
@@ -104,6 +108,7 @@ Tracer make_tracer(const FaceTable& faces) {
 }
 
 void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
+  if (tracer.state->tape) keep_packet(tracer.state->tape->nearest, packet.ray, active);
   alignas(64) int valid[16];
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k) {
@@ -135,6 +140,7 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
 }
 
 uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active) {
+  if (tracer.state->tape) keep_packet(tracer.state->tape->visibility, packet, active);
   alignas(64) int valid[16];
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k)
@@ -154,6 +160,55 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active) 
   uint32_t blocked = 0;
   for (uint32_t k = 0; k < 16; ++k) blocked |= (packet.far_distance[k] < 0 ? 1u : 0u) << k;
   return blocked & active;
+}
+
+void record_rays(const Tracer& tracer, RayTape* tape) { tracer.state->tape = tape; }
+
+void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+  RTCOccludedArguments how;
+  rtcInitOccludedArguments(&how);
+  how.flags = order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+#else
+  RTCIntersectContext how;
+  rtcInitIntersectContext(&how);
+  how.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+  for (size_t p = 0; p < replay.packets.size(); ++p) {
+    RayPacket& packet = replay.packets[p].ray;
+    std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.far_distance);
+    auto* rays = reinterpret_cast<RTCRay16*>(&packet);
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+    rtcOccluded16(replay.lanes[p].valid, tracer.state->scene, rays, &how);
+#else
+    rtcOccluded16(replay.lanes[p].valid, tracer.state->scene, &how, rays);
+#endif
+  }
+}
+
+void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order) {
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments how;
+  rtcInitIntersectArguments(&how);
+  how.flags = order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+#else
+  RTCIntersectContext how;
+  rtcInitIntersectContext(&how);
+  how.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+  for (size_t p = 0; p < replay.packets.size(); ++p) {
+    HitPacket& packet = replay.packets[p];
+    std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.ray.far_distance);
+    std::fill_n(packet.geometry, kPacketSize, RTC_INVALID_GEOMETRY_ID);
+    auto* rays = reinterpret_cast<RTCRayHit16*>(&packet);
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+    rtcIntersect16(replay.lanes[p].valid, tracer.state->scene, rays, &how);
+#else
+    rtcIntersect16(replay.lanes[p].valid, tracer.state->scene, &how, rays);
+#endif
+  }
 }
 
 const char* tracer_version() { return "Embree " RTC_VERSION_STRING; }

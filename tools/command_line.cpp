@@ -49,6 +49,17 @@ Examples:
   patchlight check room.yaml --json                 the messages as a JSON list, for editors
 )";
 
+constexpr const char* kBenchHelp =
+    R"(Measures this build on this machine: kernels beside bare Embree and bare memory, and whole runs of scenes.
+
+Examples:
+  patchlight bench                                  kernels, and the scenes of the folder scenes
+  patchlight bench room.yaml --only scenes          whole runs of one scene
+  patchlight bench --only growth,threads --json b.json
+
+Every figure is a median with its lowest and highest value. Kernels, growth and threads take the first scene.
+)";
+
 [[noreturn]] void fail_usage(const std::string& message) { throw UserError("usage", message); }
 
 std::vector<std::string> split_list(std::string_view text) {
@@ -168,6 +179,36 @@ void add_render_flags(CLI::App& app, Options& options) {
             });
 }
 
+void add_bench_flags(CLI::App& app, Options& options) {
+  BenchOptions& bench = options.bench;
+  app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
+  add_value(app, "--only", "LIST", "sections, of kernels,scenes,growth,threads; the first two unless given",
+            [&](const std::string& text) {
+              bench.sections = split_list(text);
+              for (const std::string& section : bench.sections)
+                parse_choice("--only", section, {"kernels", "scenes", "growth", "threads"});
+            });
+  add_value(app, "--json", "FILE", "the result as JSON, too", [&](const std::string& text) {
+    if (text.empty()) fail_usage("--json: expected a file");
+    bench.json = text;
+  });
+  add_value(app, "--repetitions", "N", "runs of everything; 5 unless given", [&](const std::string& text) {
+    bench.repetitions = parse_count("--repetitions", text, 1, 1000);
+  });
+  add_value(app, "--seconds", "S", "at least so long a repetition of a kernel; 0.2 unless given",
+            [&](const std::string& text) { bench.seconds = parse_number("--seconds", text, 0.001, 100); });
+  add_value(app, "--threads", "N", "at most so many; all cores unless given",
+            [&](const std::string& text) { bench.threads = parse_count("--threads", text, 1, kThreadsMax); });
+  add_value(app, "--max-patches", "N", "no measured mesh has more patches", [&](const std::string& text) {
+    bench.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
+  });
+  add_value(app, "--max-memory", "BYTES", "growth stops before a mesh that may need more",
+            [&](const std::string& text) {
+              bench.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+            });
+  add_switch(app, "--quiet", options.quiet, "no progress");
+}
+
 std::vector<std::string> flag_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -189,6 +230,13 @@ std::vector<std::string> flag_names(const CLI::App& app) {
   fail_usage(fmt::format("{} has no flag '{}'{}; see patchlight {} --help", verb.get_name(),
                          escape_text(word), near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
                          verb.get_name()));
+}
+
+// They are read more than once.
+void check_bench_scenes(const std::vector<std::string>& scenes) {
+  for (const std::string& scene : scenes)
+    if (scene.empty() || scene == "-")
+      fail_usage(fmt::format("bench: found '{}', expected the path of a scene file", scene));
 }
 
 void check_verb(const std::vector<std::string>& arguments, const std::vector<std::string>& verbs) {
@@ -265,8 +313,10 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   add_render_flags(*render, options);
   CLI::App* check = app.add_subcommand("check", "what is wrong with a scene, and what would it take?");
   add_solver_flags(*check, options);
-  for (CLI::App* verb : {render, check}) verb->allow_extras();
-  check_verb(arguments, {"render", "check"});
+  CLI::App* bench = app.add_subcommand("bench", "how fast is it here?");
+  add_bench_flags(*bench, options);
+  for (CLI::App* verb : {render, check, bench}) verb->allow_extras();
+  check_verb(arguments, {"render", "check", "bench"});
 
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -274,6 +324,7 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
     // The list of verbs shows the short descriptions, a verb's own help the long one.
     render->description(kRenderHelp);
     check->description(kCheckHelp);
+    bench->description(kBenchHelp);
     options.text = app.help();
     return options;
   } catch (const CLI::CallForVersion&) {
@@ -289,8 +340,13 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
     if (verb != nullptr && !verb->remaining().empty()) fail_extra(verb->remaining(), *verb);
     fail_usage(escape_text(error.what(), 300));
   }
-  CLI::App& verb = render->parsed() ? *render : *check;
+  CLI::App& verb = render->parsed() ? *render : check->parsed() ? *check : *bench;
   if (!verb.remaining().empty()) fail_extra(verb.remaining(), verb);
+  if (bench->parsed()) {
+    check_bench_scenes(options.bench.scenes);
+    options.verb = Verb::kBench;
+    return options;
+  }
   if (options.scene.empty()) fail_usage("expected a scene file");
   options.verb = render->parsed() ? Verb::kRender : Verb::kCheck;
   return options;

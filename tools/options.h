@@ -12,10 +12,21 @@
 
 namespace patchlight {
 
-enum class Verb { kRender, kCheck, kPrinted };  // kPrinted: help or versions, `text` holds them
+enum class Verb { kRender, kCheck, kBench, kPrinted };  // kPrinted: help or versions, `text` holds them
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
+
+struct BenchOptions {
+  std::vector<std::string> scenes;  // paths; empty: those in scenes/
+  std::vector<std::string> sections = {"kernels", "scenes"};
+  std::string json;  // a file for the result; empty: none
+  size_t repetitions = 5;
+  double seconds = 0.2;                 // a repetition of a kernel takes at least so long
+  size_t threads = 0;                   // 0: all cores
+  uint64_t max_patches = ~uint64_t{0};  // no measured mesh has more
+  uint64_t max_memory = ~uint64_t{0};   // bytes: growth stops before
+};
 
 struct Options {
   Verb verb = Verb::kPrinted;
@@ -41,6 +52,7 @@ struct Options {
   bool quiet = false;
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;
+  BenchOptions bench;
 };
 
 }  // namespace patchlight

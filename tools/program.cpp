@@ -1,6 +1,7 @@
 // Words of the command line -> exit code. All exceptions end here.
 #include "program.h"
 
+#include "bench.h"
 #include "check.h"
 #include "command_line.h"
 #include "files.h"
@@ -35,6 +36,8 @@ int run_verb(const Options& options, Talk& talk) {
       return render(options, talk);
     case Verb::kCheck:
       return check(options, talk);
+    case Verb::kBench:
+      return bench(options, talk);
     case Verb::kPrinted:
       break;
   }
@@ -73,7 +76,9 @@ int run_and_report(const std::vector<std::string>& words, Talk& talk) {
 int run_program(int argument_count, const char* const* arguments) {
   const std::vector<std::string> words(arguments + std::min(argument_count, 1), arguments + argument_count);
   Options before;  // How to speak while the command line is not understood yet.
-  before.json = std::find(words.begin(), words.end(), "--json") != words.end();
+  // For bench --json names a file.
+  const bool is_bench = !words.empty() && words.front() == "bench";
+  before.json = !is_bench && std::find(words.begin(), words.end(), "--json") != words.end();
   Talk talk = make_talk(before);
   const int code = run_and_report(words, talk);
   if (!talk.json) return code;

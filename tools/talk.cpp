@@ -84,4 +84,6 @@ void say_progress(Talk& talk, const std::string& line) {
   write_error_text(line + "\n");
 }
 
+void say_progress_done(Talk& talk) { close_progress_line(talk); }
+
 }  // namespace patchlight

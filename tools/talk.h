@@ -31,6 +31,8 @@ void say_warning(Talk& talk, std::string_view slug, const std::string& message, 
 void say(Talk& talk, std::string_view line);
 // Where the run stands: rewritten in place on a terminal, else a line every few seconds.
 void say_progress(Talk& talk, const std::string& line);
+// Takes the line away again, before results are printed.
+void say_progress_done(Talk& talk);
 
 // A message with its severity in colour.
 std::string color_diagnostic(const Diagnostic& diagnostic);

@@ -11,7 +11,11 @@
 #include <fstream>
 
 namespace patchlight {
-namespace {
+
+const char* version_number() { return PATCHLIGHT_VERSION; }
+const char* tbb_version() { return PATCHLIGHT_TBB_VERSION; }
+const char* build_type() { return PATCHLIGHT_BUILD_TYPE; }
+const char* compiler_version() { return "g++ " __VERSION__; }
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -21,10 +25,6 @@ std::string processor_name() {
   }
   return "unknown processor";
 }
-
-}  // namespace
-
-const char* version_number() { return PATCHLIGHT_VERSION; }
 
 std::string version_text() {
   return fmt::format(

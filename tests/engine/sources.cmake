@@ -8,6 +8,7 @@ set(ENGINE_TEST_SOURCES
   engine/parallel.cpp
   engine/quadtree.cpp
   engine/receivers.cpp
+  engine/ray_tape.cpp
   engine/refine.cpp
   engine/rows.cpp
   engine/solve.cpp

@@ -87,7 +87,7 @@ TEST_CASE("mistakes on the command line are usage errors that say what was meant
   const std::vector<Mistake> mistakes = {
       {{}, "expected a verb"},
       {{"rendr", "a.yaml"}, "did you mean 'render'?"},
-      {{"bench"}, "no verb 'bench'"},
+      {{"benhc"}, "did you mean 'bench'?"},
       {{"--mesh"}, "no flag '--mesh'"},
       {{"render"}, "SCENE is required"},
       {{"render", ""}, "expected a scene file"},

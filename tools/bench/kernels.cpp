@@ -1,0 +1,305 @@
+// The kernels on a scene to rates. Rays are compared on the same rays: those of the engine's own kernels, on
+// tape.
+#include "dsl/scene.h"
+#include "engine/direct.h"
+#include "engine/film.h"
+#include "engine/gather.h"
+#include "engine/parallel.h"
+#include "engine/ray_tape.h"
+#include "engine/rows.h"
+#include "engine/vertices.h"
+#include "tools/bench/apart.h"
+#include "tools/bench/figure.h"
+#include "tools/bench/measure.h"
+#include "tools/bench/sections.h"
+#include "tools/bench/solve_case.h"
+#include "tools/exporters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <memory>
+#include <numeric>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kSourceCount = 400;            // as the solver's pass 2
+constexpr size_t kMemoryWords = size_t{1} << 25;  // 256 MB: far more than caches hold
+
+// Everything that the kernels read, made once.
+struct Bench {
+  Scene scene;
+  SolverSettings settings = {};
+  Tracer tracer;
+  Solution start = {};              // before the first round
+  Solution refined = {};            // after the last one; the mesh is not frozen
+  Solution passed = {};             // after pass 2
+  std::vector<uint32_t> rows = {};  // all elements of `refined`
+  SourceTable sources = {};         // of pass 2
+  std::vector<Rgb> sent = {};       // by the elements in pass 2
+  View view = {};
+  FilmTable film = {};
+  std::vector<Rgb> vertex_values = {};
+  Picture picture = {};
+  std::vector<uint64_t> memory = {};
+};
+
+// What the kernels write.
+struct Scratch {
+  LampViewTable views;
+  std::vector<Rgb> direct, irradiance;
+  std::vector<float> error;
+  PatchTable patches;
+  HitTable hits;
+  Solution solution;
+  std::vector<uint32_t> parent;
+  PatchTable leaves;
+  std::vector<uint64_t> memory;
+};
+
+struct Tapes {
+  RayTape direct, rows, aimed;
+};
+
+uint64_t direct_light(Scratch& scratch, const Bench& b) {
+  const PatchTable& elements = b.refined.elements;
+  scratch.views.settled.assign(elements.size(), 0);  // every lamp gets rays
+  scratch.views.seen.assign(elements.size(), 0);
+  scratch.views.hidden.assign(elements.size(), 0);
+  scratch.direct.resize(elements.size());
+  scratch.error.resize(elements.size());
+  return find_direct({scratch.direct, scratch.error, scratch.views}, b.rows, elements, b.refined.aims,
+                     b.scene.faces, b.refined.frames, b.tracer, {}, b.settings.seed);
+}
+
+uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {
+  return cast_rows(scratch.hits, scratch.patches, b.refined.receivers, b.scene.faces, b.refined.frames,
+                   b.tracer, b.settings.rays, b.settings.seed);
+}
+
+uint64_t second_pass(Scratch& scratch, const Bench& b) {
+  return gather_elements(scratch.irradiance, b.passed.hits, b.passed.receivers, b.passed.patches,
+                         {b.passed.elements, b.passed.element_first}, b.sent, b.sources, b.scene.faces,
+                         b.passed.frames, b.tracer, b.settings.seed);
+}
+
+Bench make_bench(const std::string& path, uint64_t max_patches) {
+  Scene scene = load_quietly(path);
+  Tracer tracer = make_tracer(scene.faces);
+  Bench b{.scene = std::move(scene), .tracer = std::move(tracer)};
+  b.settings = settings_within(b.scene, max_patches);
+  const FaceTable& faces = b.scene.faces;
+  b.start = make_solution(faces, b.tracer, b.settings);
+  b.refined = b.start;
+  while (refine(b.refined, faces, b.tracer, b.settings)) {
+  }
+  b.rows.resize(b.refined.elements.size());
+  std::iota(b.rows.begin(), b.rows.end(), 0);
+  b.passed = b.refined;
+  freeze(b.passed, faces, b.tracer, b.settings);
+  advance(b.passed, faces, b.tracer, b.settings);
+  b.sent = b.passed.elements.unshot;
+  b.sources = make_sources(b.passed.elements, faces, b.passed.frames, b.sent, kSourceCount);
+  advance(b.passed, faces, b.tracer, b.settings);
+  const Camera& camera = b.scene.cameras.front();
+  b.view = {Vec3(camera.eye), Vec3(camera.target), Vec3(camera.up), static_cast<float>(camera.fov_degrees),
+            camera.width,     camera.height};
+  b.film = make_film(b.passed, faces, b.tracer, b.view, {});
+  b.vertex_values = vertex_radiosity(b.passed, faces);
+  b.picture = {b.film.width, b.film.height, expose(b.film, b.vertex_values)};
+  b.memory.assign(kMemoryWords, 1);
+  return b;
+}
+
+// What each ray kernel asks of the tracer.
+Tapes record_tapes(Scratch& scratch, const Bench& b) {
+  Tapes tapes;
+  set_thread_count(1);
+  record_rays(b.tracer, &tapes.direct);
+  direct_light(scratch, b);
+  record_rays(b.tracer, &tapes.rows);
+  rows_of_patches(scratch, b);
+  record_rays(b.tracer, &tapes.aimed);
+  second_pass(scratch, b);
+  record_rays(b.tracer, nullptr);
+  return tapes;
+}
+
+// One thread, by the processor's clock.
+Kernel ray_kernel(std::string name, std::function<double()> run, std::function<void()> prepare = {}) {
+  return {std::move(name), "rays/s", 1, Clock::kProcessor, std::move(run), std::move(prepare)};
+}
+
+// A kernel beside bare Embree on the rays of its tape: four rows, the kernel itself last. Those of neither
+// kind are left out: the few rays of find_direct that look for buried points, for one.
+void add_ray_kernels(std::vector<Kernel>& kernels, const std::string& name, const Bench& b,
+                     const TapeTrack& track, bool visibility, std::function<double()> whole,
+                     std::function<void()> prepare) {
+  const auto replay = std::make_shared<Replay>(make_replay(track));
+  const auto rays = static_cast<double>(count_kept_rays(track));
+  const auto add = [&](const std::string& what, auto step) {
+    kernels.push_back(ray_kernel(name + ": " + what, [&b, replay, rays, step] {
+      step(b.tracer, *replay);
+      return rays;
+    }));
+  };
+  const auto bare = visibility ? replay_blocked : replay_nearest;
+  const std::string call = visibility ? "rtcOccluded16" : "rtcIntersect16";
+  add("bare " + call + ", coherent",
+      [bare](const Tracer& tracer, Replay& packets) { bare(tracer, packets, RayOrder::kCoherent); });
+  add("bare " + call + ", incoherent",
+      [bare](const Tracer& tracer, Replay& packets) { bare(tracer, packets, RayOrder::kIncoherent); });
+  add(visibility ? "find_blocked" : "find_hits", visibility ? replay_find_blocked : replay_find_hits);
+  kernels.push_back(ray_kernel(name, std::move(whole), std::move(prepare)));
+}
+
+std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& tapes, size_t threads) {
+  const FaceTable& faces = b.scene.faces;
+  std::vector<Kernel> kernels;
+  if (tapes.direct.visibility.ray_count > 0)
+    add_ray_kernels(kernels, "find_direct", b, tapes.direct.visibility, true,
+                    [&] { return static_cast<double>(direct_light(scratch, b)); }, {});
+  add_ray_kernels(kernels, "cast_rows", b, tapes.rows.nearest, false,
+                  [&] { return static_cast<double>(rows_of_patches(scratch, b)); }, {});
+  if (tapes.aimed.visibility.ray_count > 0)
+    add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.visibility, true,
+                    [&] { return static_cast<double>(second_pass(scratch, b)); }, {});
+
+  const auto factors = static_cast<double>(b.passed.hits.patch.size());
+  kernels.push_back({"gather_patches", "factors/s", threads, Clock::kWall, [&, factors] {
+                       gather_patches(scratch.irradiance, {}, b.passed.hits, b.passed.receivers,
+                                      b.passed.patches.unshot);
+                       return factors;
+                     }});
+  kernels.push_back({"memory read", "B/s", threads, Clock::kWall, [&] {
+                       std::atomic<uint64_t> sum{0};
+                       for_rows(kMemoryWords, 1 << 16, [&](size_t begin, size_t end) {
+                         sum +=
+                             std::accumulate(b.memory.begin() + begin, b.memory.begin() + end, uint64_t{0});
+                       });
+                       // Nothing of it is left out by the compiler: the sum decides.
+                       return sum == kMemoryWords ? 8.0 * kMemoryWords : 0.0;
+                     }});
+  kernels.push_back({"memory copy, read and written", "B/s", threads, Clock::kWall, [&] {
+                       for_rows(kMemoryWords, 1 << 16, [&](size_t begin, size_t end) {
+                         std::memcpy(&scratch.memory[begin], &b.memory[begin], 8 * (end - begin));
+                       });
+                       return 16.0 * kMemoryWords;
+                     }});
+
+  kernels.push_back({"refine, rays included", "splits/s", 1, Clock::kProcessor,
+                     [&] {
+                       while (refine(scratch.solution, faces, b.tracer, b.settings)) {
+                       }
+                       double splits = 0;
+                       for (const RoundReport& round : scratch.solution.rounds)
+                         splits += static_cast<double>(round.split_count);
+                       return splits;
+                     },
+                     [&] { scratch.solution = b.start; }});
+  kernels.push_back({"split_leaves", "splits/s", 1, Clock::kProcessor, [&] {
+                       const std::vector<uint8_t> marks(b.start.elements.size(), 1);
+                       scratch.leaves = split_leaves(b.start.elements, b.start.frames, marks, scratch.parent);
+                       return static_cast<double>(marks.size());
+                     }});
+  kernels.push_back({"make_vertices and reconstruct", "patches/s", 1, Clock::kProcessor, [&] {
+                       const VertexTable vertices =
+                           make_vertices(b.refined.elements, b.refined.frames, b.refined.links);
+                       reconstruct(vertices, b.refined.elements, b.refined.frames, b.refined.direct, {3, 3});
+                       return static_cast<double>(b.refined.elements.size());
+                     }});
+  const double pixels = static_cast<double>(b.film.width) * b.film.height;
+  kernels.push_back({"make_film", "pixels/s", 1, Clock::kProcessor, [&, pixels] {
+                       make_film(b.passed, faces, b.tracer, b.view, {});
+                       return pixels;
+                     }});
+  kernels.push_back({"expose", "pixels/s", 1, Clock::kProcessor, [&, pixels] {
+                       expose(b.film, b.vertex_values);
+                       return pixels;
+                     }});
+  kernels.push_back({"encode_png, of raw pixels", "B/s", 1, Clock::kProcessor,
+                     [&, pixels] { return encode_png(b.picture).empty() ? 0.0 : 3 * pixels; }});
+  return kernels;
+}
+
+// Quotients of rates of one round each.
+Json make_ratio(std::string name, const std::vector<double>& over, const std::vector<double>& under) {
+  std::vector<double> quotients;
+  for (size_t k = 0; k < over.size(); ++k) quotients.push_back(over[k] / under[k]);
+  Json figure = make_figure(std::move(quotients), "");
+  figure["name"] = std::move(name);
+  return figure;
+}
+
+double sum(const std::vector<double>& runs) { return std::accumulate(runs.begin(), runs.end(), 0.0); }
+
+Json make_ratios(const std::vector<Kernel>& kernels, const std::vector<std::vector<double>>& rates) {
+  Json ratios = Json::array();
+  const std::vector<double>* gather = nullptr;
+  for (size_t k = 0; k < kernels.size(); ++k) {
+    if (kernels[k].name.find(": bare ") != std::string::npos && kernels[k].name.ends_with(", coherent")) {
+      // The faster of Embree's two ways is the one to be held against.
+      const std::vector<double>& best = sum(rates[k]) > sum(rates[k + 1]) ? rates[k] : rates[k + 1];
+      for (const size_t other : {k + 2, k + 3})
+        ratios.push_back(make_ratio(kernels[other].name + " / bare Embree", rates[other], best));
+    }
+    if (kernels[k].name == "gather_patches") gather = &rates[k];
+    if (kernels[k].name == "memory read" && gather) {
+      // A factor is the index of a patch, four bytes; what the patches send stays in caches.
+      Json ratio = make_ratio("gather_patches' bytes / memory read", *gather, rates[k]);
+      for (const char* value : {"median", "low", "high"}) ratio[value] = 4 * ratio[value].get<double>();
+      ratios.push_back(ratio);
+    }
+  }
+  return ratios;
+}
+
+Json measure(const BenchOptions& options) {
+  const size_t threads = set_thread_count(options.threads);
+  const Bench b = make_bench(options.scenes.front(), options.max_patches);
+  Scratch scratch;
+  scratch.patches = b.refined.patches;
+  scratch.memory.assign(kMemoryWords, 2);
+  scratch.irradiance.resize(b.passed.patches.size());
+  const Tapes tapes = record_tapes(scratch, b);
+  const std::vector<Kernel> kernels = list_kernels(scratch, b, tapes, threads);
+  const auto rates = measure_kernels(kernels, options.repetitions, options.seconds);
+  Json result = {{"scene", options.scenes.front()},
+                 {"patches", b.refined.elements.size()},
+                 {"form_factor_patches", b.refined.patches.size()},
+                 {"kernels", Json::array()}};
+  for (size_t k = 0; k < kernels.size(); ++k) {
+    Json figure = make_figure(rates[k], kernels[k].unit);
+    figure["name"] = kernels[k].name;
+    figure["threads"] = kernels[k].thread_count;
+    figure["clock"] = kernels[k].clock == Clock::kWall ? "wall" : "processor";
+    result["kernels"].push_back(figure);
+  }
+  result["ratios"] = make_ratios(kernels, rates);
+  return result;
+}
+
+}  // namespace
+
+Json measure_kernels_section(const BenchOptions& options, Talk& talk) {
+  say_progress(talk, "kernels on " + options.scenes.front());
+  return run_apart([&] { return measure(options); });
+}
+
+std::string format_kernels(const Json& section) {
+  std::string text = fmt::format("kernels, on {} ({} patches, {} with rows); median (lowest .. highest)\n",
+                                 section["scene"].get<std::string>(), section["patches"].get<uint64_t>(),
+                                 section["form_factor_patches"].get<uint64_t>());
+  for (const Json& figure : section["kernels"])
+    text += fmt::format(
+        "  {:48} {}{}\n", figure["name"].get<std::string>(), format_figure(figure),
+        figure["clock"] == "wall" ? fmt::format(", {} threads", figure["threads"].get<size_t>()) : "");
+  for (const Json& figure : section["ratios"])
+    text += fmt::format("  {:48} {}\n", figure["name"].get<std::string>(), format_figure(figure));
+  return text;
+}
+
+}  // namespace patchlight
