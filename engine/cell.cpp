@@ -2,24 +2,6 @@
 #include "cell.h"
 
 namespace patchlight {
-namespace {
-
-// Spreads the low 16 bits of x to the even bits.
-uint32_t spread_bits(uint32_t x) {
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
-}
-
-uint32_t gather_bits(uint32_t x) {
-  x &= 0x55555555u;
-  x = (x | x >> 1) & 0x33333333u;
-  x = (x | x >> 2) & 0x0f0f0f0fu;
-  x = (x | x >> 4) & 0x00ff00ffu;
-  return (x | x >> 8) & 0x0000ffffu;
-}
-
 uint32_t find_triangle_cell(Vec2 uv) {
   // Into the triangle first: rounding puts hits a hair outside of it.
   uv = {std::clamp(uv.x, 0.0f, 1.0f), std::clamp(uv.y, 0.0f, 1.0f)};
@@ -41,14 +23,7 @@ uint32_t find_triangle_cell(Vec2 uv) {
   return cell;
 }
 
-}  // namespace
-
-CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level) {
-  if (!triangle) {
-    return {{static_cast<float>(gather_bits(cell)) * 0x1p-16f,
-             static_cast<float>(gather_bits(cell >> 1)) * 0x1p-16f},
-            cell_size(level)};
-  }
+CellFrame make_triangle_cell_frame(uint32_t cell, uint32_t level) {
   CellFrame frame{{0, 0}, 1};
   for (uint32_t k = 1; k <= level; ++k) {
     frame.size *= 0.5f;
@@ -67,12 +42,6 @@ CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level) {
     }
   }
   return frame;
-}
-
-uint32_t find_cell(bool triangle, Vec2 uv) {
-  if (triangle) return find_triangle_cell(uv);
-  const auto steps = [](float x) { return static_cast<uint32_t>(std::clamp(x * 65536.0f, 0.0f, 65535.0f)); };
-  return spread_bits(steps(uv.x)) | spread_bits(steps(uv.y)) << 1;
 }
 
 FaceFrameTable make_face_frames(const FaceTable& faces) {
@@ -99,10 +68,7 @@ FaceFrameTable make_face_frames(const FaceTable& faces) {
   return frames;
 }
 
-Vec2 find_face_parameters(const FaceFrameTable& frames, uint32_t face, Vec3 point) {
-  const Vec3 p = point - frames.origin[face];
-  const Vec2 target(dot(p, frames.dual_u[face]), dot(p, frames.dual_v[face]));
-  if (frames.affine[face]) return target;
+Vec2 undo_twist(const FaceFrameTable& frames, uint32_t face, Vec2 target) {
   // In the basis (edge_u, edge_v) the bilinear map is (u, v) + u v twist: Newton's method, from the
   // parameters without twist. Convex quads have one root in the unit square and a Jacobian that does not
   // change sign there.

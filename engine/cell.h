@@ -14,6 +14,7 @@
 
 #include "tables.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace patchlight {
@@ -38,10 +39,33 @@ struct CellFrame {
   Vec2 origin;
   float size;
 };
-CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level);
+CellFrame make_triangle_cell_frame(uint32_t cell, uint32_t level);
+inline CellFrame make_cell_frame(bool triangle, uint32_t cell, uint32_t level) {
+  if (triangle) return make_triangle_cell_frame(cell, level);
+  // Even bits to the low half, odd bits to the high half, both at once.
+  uint64_t x = (cell | uint64_t{cell} << 31) & 0x5555555555555555ull;
+  x = (x | x >> 1) & 0x3333333333333333ull;
+  x = (x | x >> 2) & 0x0f0f0f0f0f0f0f0full;
+  x = (x | x >> 4) & 0x00ff00ff00ff00ffull;
+  x |= x >> 8;
+  return {{static_cast<float>(x & 0xffff) * 0x1p-16f, static_cast<float>(x >> 32 & 0xffff) * 0x1p-16f},
+          cell_size(level)};
+}
 
 // The cell of level kLevelMax at (u, v); parameters outside the face are clamped to it.
-uint32_t find_cell(bool triangle, Vec2 uv);
+uint32_t find_triangle_cell(Vec2 uv);
+inline uint32_t find_cell(bool triangle, Vec2 uv) {
+  if (triangle) return find_triangle_cell(uv);
+  const auto steps = [](float x) {
+    return static_cast<uint64_t>(static_cast<int32_t>(std::clamp(x * 65536.0f, 0.0f, 65535.0f)));
+  };
+  uint64_t x = steps(uv.x) | steps(uv.y) << 32;
+  x = (x | x << 8) & 0x00ff00ff00ff00ffull;
+  x = (x | x << 4) & 0x0f0f0f0f0f0f0f0full;
+  x = (x | x << 2) & 0x3333333333333333ull;
+  x = (x | x << 1) & 0x5555555555555555ull;
+  return static_cast<uint32_t>(x | x >> 31);
+}
 
 // Frames for all faces.
 FaceFrameTable make_face_frames(const FaceTable& faces);
@@ -51,7 +75,12 @@ inline Vec3 face_point(const FaceFrameTable& frames, uint32_t face, Vec2 uv) {
          uv.x * uv.y * frames.twist[face];
 }
 // Parameters of a point in the plane of the face; outside it they leave 0..1.
-Vec2 find_face_parameters(const FaceFrameTable& frames, uint32_t face, Vec3 point);
+Vec2 undo_twist(const FaceFrameTable& frames, uint32_t face, Vec2 target);
+inline Vec2 find_face_parameters(const FaceFrameTable& frames, uint32_t face, Vec3 point) {
+  const Vec3 p = point - frames.origin[face];
+  const Vec2 target(dot(p, frames.dual_u[face]), dot(p, frames.dual_v[face]));
+  return frames.affine[face] ? target : undo_twist(frames, face, target);
+}
 
 // The corners of a cell, counter-clockwise from the lit side; a triangle repeats its third.
 std::array<Vec2, 4> cell_corner_parameters(bool triangle, uint32_t cell, uint32_t level);

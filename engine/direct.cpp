@@ -25,6 +25,10 @@ constexpr double kLampSkyMax = 0.8;
 // A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at
 // most).
 constexpr float kFarLamp = 0.05f;
+// A lamp that looks smaller than this takes four points: the rule's error on 1 / r^4 is 0.1 (size /
+// distance)^4.
+constexpr float kNearbyLamp = 0.15f;
+constexpr float kGauss[2] = {0.21132487f, 0.78867513f};  // Gauss's points of [0, 1] for two
 // An element nearer to a lamp than this many of its edges takes its mean factor by Gauss's rule, not at its
 // centre.
 constexpr float kNearLamp = 40;
@@ -43,6 +47,8 @@ struct Lamp {
   uint32_t corner_count;
   float area, diameter;
   Vec2 twist;  // of the bilinear map in the basis of its edges: the Jacobian is 1 + v x + u y
+  bool is_parallelogram;
+  std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
 };
 
 Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face) {
@@ -53,10 +59,13 @@ Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t fa
             faces.corner_count[face],
             cell_area(frames, face, 0, 0),
             0,
-            Vec2(0)};
+            Vec2(0),
+            frames.affine[face] && !frames.triangle[face],
+            {}};
   for (size_t a = 0; a < lamp.corner_count; ++a)
     for (size_t b = 0; b < a; ++b)
       lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
+  for (size_t k = 0; k < 4; ++k) lamp.gauss[k] = face_point(frames, face, {kGauss[k % 2], kGauss[k / 2]});
   if (!frames.affine[face])
     lamp.twist = {dot(frames.twist[face], frames.dual_u[face]), dot(frames.twist[face], frames.dual_v[face])};
   return lamp;
@@ -70,6 +79,18 @@ float find_factor(Vec3 point, Vec3 normal, const Lamp& lamp) {
     const float cosines = dot(way, normal) * -dot(way, lamp.normal);
     if (dot(way, normal) <= 0 || cosines <= 0) return 0;
     return cosines * lamp.area / (kPi * distance_squared * distance_squared);
+  }
+  if (lamp.is_parallelogram && lamp.diameter * lamp.diameter < kNearbyLamp * kNearbyLamp * distance_squared) {
+    float sum = 0;
+    bool above = true;
+    for (const Vec3& p : lamp.gauss) {
+      const Vec3 to = p - point;
+      const float squared = dot(to, to), cosine = dot(to, normal);
+      // The corners lie 1.74 times as far out as these points: near the horizon the closed form cuts them.
+      above &= cosine > lamp.diameter;
+      sum += cosine * -dot(to, lamp.normal) / (squared * squared);
+    }
+    if (above) return std::max(sum * lamp.area / (4 * kPi), 0.0f);
   }
   return static_cast<float>(
       find_point_form_factor(DVec3(point), DVec3(normal), std::span(lamp.corners).first(lamp.corner_count)));
@@ -85,46 +106,70 @@ bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) 
          any_above(patch, lamp.centre, lamp.normal, slack);
 }
 
-// Sixteen points of an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts of
-// their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or 16
-// x 16.
+// Sixteen points just off an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts
+// of their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or
+// 16 x 16.
 struct Points {
-  Vec3 point[kPacketSize];
-  Vec2 sample[kPacketSize];
+  float x[kPacketSize], y[kPacketSize], z[kPacketSize];
 };
 
-Vec2 stratified_sample(uint64_t key, uint32_t packet, uint32_t packet_count, uint32_t column, uint32_t row,
-                       uint32_t index) {
-  Vec2 inside = make_jitter(key, packet * kPacketSize + index);
-  // From the last digit of the packet to the first: each halves what the ones before it left.
-  uint32_t digits = packet ^ static_cast<uint32_t>(key >> (4 * (index % 8)) & 15);
-  Vec2 base(0);
+// Which part of a stratum the samples of a packet keep to, by the packet's number.
+struct Strata {
+  std::array<Vec2, kPacketsMax> base;
   float size = 1;
-  for (uint32_t parts = packet_count; parts >= 4; parts /= 4, digits >>= 2) {
-    size *= 0.5f;
-    base += size * Vec2(static_cast<float>(digits & 1u), static_cast<float>(digits >> 1 & 1u));
+  explicit Strata(uint32_t packets) : base{} {
+    // From the last digit of the packet to the first: each halves what the ones before it left.
+    for (uint32_t parts = packets, shift = 0; parts >= 4; parts /= 4, shift += 2) {
+      size *= 0.5f;
+      for (uint32_t k = 0; k < kPacketsMax; ++k)
+        base[k] += size * Vec2(static_cast<float>(k >> shift & 1u), static_cast<float>(k >> shift >> 1 & 1u));
+    }
   }
-  inside = base + size * inside;
-  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + inside) * 0.25f;
+};
+
+Vec2 stratified_sample(uint64_t key, uint32_t packet, const Strata& strata, uint32_t column, uint32_t row,
+                       uint32_t index) {
+  const Vec2 inside = make_jitter(key, packet * kPacketSize + index);
+  const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (index % 8)) & 15);
+  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + strata.base[part] +
+          strata.size * inside) *
+         0.25f;
 }
 
-void make_points(Points& points, const FaceFrameTable& frames, const PatchTable& elements, uint32_t row,
-                 uint64_t key, uint32_t packet, uint32_t packet_count) {
+// Parameters of a face to points of it, `offset` lengths off it. Loops over lanes stand alone, so that they
+// compile to wide instructions.
+void make_face_points(Points& points, const FaceFrameTable& frames, uint32_t face, Vec3 offset,
+                      const float (&u)[kPacketSize], const float (&v)[kPacketSize]) {
+  const Vec3 origin = frames.origin[face] + offset, edge_u = frames.edge_u[face],
+             edge_v = frames.edge_v[face], twist = frames.twist[face];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float both = u[k] * v[k];
+    points.x[k] = origin.x + u[k] * edge_u.x + v[k] * edge_v.x + both * twist.x;
+    points.y[k] = origin.y + u[k] * edge_u.y + v[k] * edge_v.y + both * twist.y;
+    points.z[k] = origin.z + u[k] * edge_u.z + v[k] * edge_v.z + both * twist.z;
+  }
+}
+
+void make_points(Points& points, const FaceTable& faces, const FaceFrameTable& frames,
+                 const PatchTable& elements, uint32_t row, uint64_t key, uint32_t packet,
+                 const Strata& strata) {
   const uint32_t face = elements.face[row];
   const bool triangle = frames.triangle[face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
-  for (uint32_t k = 0; k < kPacketSize; ++k)
-    points.point[k] = face_point(
-        frames, face,
-        cell_sample(triangle, cell, stratified_sample(key, packet, packet_count, k % 4, k / 4, k)));
+  float u[kPacketSize], v[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec2 uv = cell_sample(triangle, cell, stratified_sample(key, packet, strata, k % 4, k / 4, k));
+    u[k] = uv.x, v[k] = uv.y;
+  }
+  const Vec3 normal = faces.normal[face];
+  make_face_points(points, frames, face, ray_offset(face_point(frames, face, {u[0], v[0]})) * normal, u, v);
 }
 
 uint32_t find_buried_points(const Points& points, Vec3 normal, const FaceTable& faces, const Tracer& tracer) {
   RayPacket rays;
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const Vec3 p = points.point[k] + ray_offset(points.point[k]) * normal;
-    rays.origin_x[k] = p.x, rays.origin_y[k] = p.y, rays.origin_z[k] = p.z;
-  }
+  std::copy_n(points.x, kPacketSize, rays.origin_x);
+  std::copy_n(points.y, kPacketSize, rays.origin_y);
+  std::copy_n(points.z, kPacketSize, rays.origin_z);
   return find_buried(tracer, faces, make_frame(normal), rays, 0xffff);
 }
 
@@ -140,32 +185,38 @@ struct VisibilitySums {
 // Adds one packet of pairs: the element's points against points of the lamp.
 void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
                     const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
-                    uint32_t packet, uint32_t packet_count) {
+                    uint32_t packet, const Strata& strata) {
   const CellFrame whole{Vec2(0), 1};
   const bool triangle = frames.triangle[lamp.face];
   // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one
   // meets each axis of the other evenly.
   const uint64_t lamp_key = mix_bits(key ^ (uint64_t{lamp.face} + 1) * 0x9e3779b97f4a7c15ull);
   const auto shuffle = static_cast<uint32_t>(lamp_key >> 4 * (packet % 15));
-  RayPacket rays;
-  float kernel[kPacketSize];
-  uint32_t active = 0;
+  float u[kPacketSize], v[kPacketSize];
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
-    const Vec2 uv =
-        cell_sample(triangle, whole, stratified_sample(lamp_key, packet, packet_count, column, row, k));
-    const Vec3 target = face_point(frames, lamp.face, uv) + ray_offset(lamp.centre) * lamp.normal;
-    const Vec3 origin = points.point[k] + ray_offset(points.point[k]) * normal;
-    const Vec3 way = target - origin;
-    const float squared = dot(way, way);
-    const float jacobian = 1 + uv.y * lamp.twist.x + uv.x * lamp.twist.y;
-    kernel[k] = std::max(dot(way, normal), 0.0f) * std::max(-dot(way, lamp.normal), 0.0f) * jacobian /
-                std::max(squared * squared, 1e-30f);
-    if (kernel[k] > 0 && (usable >> k & 1u)) active |= 1u << k;
-    rays.origin_x[k] = origin.x, rays.origin_y[k] = origin.y, rays.origin_z[k] = origin.z;
-    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
+    const Vec2 uv = cell_sample(triangle, whole, stratified_sample(lamp_key, packet, strata, column, row, k));
+    u[k] = uv.x, v[k] = uv.y;
+  }
+  Points targets;
+  make_face_points(targets, frames, lamp.face, ray_offset(lamp.centre) * lamp.normal, u, v);
+  RayPacket rays;
+  float kernel[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float x = targets.x[k] - points.x[k], y = targets.y[k] - points.y[k],
+                z = targets.z[k] - points.z[k];
+    const float squared = x * x + y * y + z * z;
+    const float jacobian = 1 + v[k] * lamp.twist.x + u[k] * lamp.twist.y;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float lamp_cosine = std::max(-(x * lamp.normal.x + y * lamp.normal.y + z * lamp.normal.z), 0.0f);
+    kernel[k] = cosine * lamp_cosine * jacobian / std::max(squared * squared, 1e-30f);
+    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
+    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
     rays.near_distance[k] = 0, rays.far_distance[k] = 1;
   }
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
+  active &= usable;
   if (!active) return;
   const uint32_t blocked = find_blocked(tracer, rays, active);
   for (uint32_t k = 0; k < kPacketSize; ++k) {
@@ -185,12 +236,12 @@ struct PointPackets {
   uint32_t made = 0;
 };
 
-void make_packets(PointPackets& packets, uint32_t count, uint32_t packet_count, const PatchTable& elements,
+void make_packets(PointPackets& packets, uint32_t count, const Strata& strata, const PatchTable& elements,
                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t row,
                   uint64_t key) {
   for (; packets.made < count; ++packets.made) {
     Points& points = packets.points[packets.made];
-    make_points(points, frames, elements, row, key, packets.made, packet_count);
+    make_points(points, faces, frames, elements, row, key, packets.made, strata);
     packets.open[packets.made] = 0xffff;
     if (elements.exposed[row] < 1)
       packets.open[packets.made] &=
@@ -206,7 +257,7 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   if (usable != 0xffff) {
     float sum = 0;
     for (uint32_t k = 0; k < kPacketSize; ++k)
-      if (usable >> k & 1u) sum += find_factor(points.point[k], normal, lamp);
+      if (usable >> k & 1u) sum += find_factor({points.x[k], points.y[k], points.z[k]}, normal, lamp);
     return sum / static_cast<float>(std::popcount(usable));
   }
   const uint32_t face = elements.face[row];
@@ -214,8 +265,9 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   const float gap = distance(centre, lamp.centre) - 0.5f * lamp.diameter;
   if (gap > kNearLamp * longest_edge(corners)) return find_factor(centre, normal, lamp);
   // Points of Gauss's rules: four on a square, exact to the third degree; three on a triangle, to the second.
-  constexpr float kLow = 0.21132487f, kHigh = 0.78867513f, kSixth = 1 / 6.0f, kTwoThirds = 2 / 3.0f;
-  constexpr float kSquare[4][2] = {{kLow, kLow}, {kHigh, kLow}, {kLow, kHigh}, {kHigh, kHigh}};
+  constexpr float kSixth = 1 / 6.0f, kTwoThirds = 2 / 3.0f;
+  constexpr float kSquare[4][2] = {
+      {kGauss[0], kGauss[0]}, {kGauss[1], kGauss[0]}, {kGauss[0], kGauss[1]}, {kGauss[1], kGauss[1]}};
   constexpr float kTriangle[3][2] = {{kSixth, kSixth}, {kTwoThirds, kSixth}, {kSixth, kTwoThirds}};
   const bool triangle = frames.triangle[face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
@@ -346,12 +398,13 @@ uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 256, [&](size_t begin, size_t end) {
     Points points;
+    const Strata whole(1);
     for (size_t k = begin; k < end; ++k) {
       const uint32_t row = rows[k];
       const float share = patches.exposed[element_patch[row]];
       elements.exposed[row] = share;
       if (share == 0 || share == 1) continue;
-      make_points(points, frames, elements, row, element_key(elements, row, seed), 0, 1);
+      make_points(points, faces, frames, elements, row, element_key(elements, row, seed), 0, whole);
       const uint32_t buried = find_buried_points(points, faces.normal[elements.face[row]], faces, tracer);
       elements.exposed[row] = 1 - static_cast<float>(std::popcount(buried)) / kPacketSize;
       ray_count += kPacketSize;
@@ -368,6 +421,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
   std::vector<uint32_t> lamp_of(faces.size(), kNone);
   for (uint32_t k = 0; k < lamps.size(); ++k) lamp_of[lamps[k].face] = k;
   const uint32_t packet_count = std::clamp((rays.mixed + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
+  const Strata strata(packet_count);
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
     PointPackets packets;
@@ -383,7 +437,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
       Rgb irradiance(0);
       double variance = 0;  // emissions may be as large as 1e20
       packets.made = 0;
-      make_packets(packets, 1, packet_count, elements, faces, frames, tracer, row, key);
+      make_packets(packets, 1, strata, elements, faces, frames, tracer, row, key);
       const bool dark = elements.exposed[row] == 0 || packets.open[0] == 0;
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
       // What each lamp would give if nothing were in its way, and all of them together.
@@ -414,9 +468,9 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
         VisibilitySums sums;
         for (uint32_t packet = 0; packet < most; ++packet) {
           if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-          make_packets(packets, packet + 1, packet_count, elements, faces, frames, tracer, row, key);
+          make_packets(packets, packet + 1, strata, elements, faces, frames, tracer, row, key);
           add_visibility(sums, packets.points[packet], packets.open[packet], normal, lamp, frames, tracer,
-                         key, packet, packet_count);
+                         key, packet, strata);
         }
         cast += sums.rays;
         const float visible = sums.all > 0 ? sums.seen / sums.all : 0;

@@ -99,26 +99,51 @@ struct PixelSum {
   }
 };
 
-void add_sample(PixelSum& sum, const Solution& s, const Seen& seen, uint32_t k, float share, bool smooth) {
-  const uint32_t element = seen.element[k];
-  if (element == kNone) return;
-  if (!smooth) return sum.add(element, share);
-  const bool triangle = s.frames.triangle[s.elements.face[element]];
-  const CellFrame cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
-  // Rounding may put the point a hair outside its cell: no negative weights.
-  Vec2 st = clamp((seen.uv[k] - cell.origin) / cell.size, Vec2(0), Vec2(1));
-  const auto& corner = s.element_vertices.leaf_vertex[element];
-  if (triangle) {
-    if (st.x + st.y > 1) st /= st.x + st.y;
-    sum.add(corner[0], share * (1 - st.x - st.y));
-    sum.add(corner[1], share * st.x);
-    sum.add(corner[2], share * st.y);
+// What the samples of one tile say of one element: where in it they lie, as the moments that its corners
+// need.
+struct Moments {
+  uint32_t element = kNone;
+  float count = 0, s = 0, t = 0, st = 0;
+};
+
+// Adds the samples' shares to the corners of the element, or to the element.
+void add_moments(PixelSum& sum, const Solution& s, const Moments& m, float share, bool smooth) {
+  if (m.element == kNone) return;
+  if (!smooth) return sum.add(m.element, share * m.count);
+  const auto& corner = s.element_vertices.leaf_vertex[m.element];
+  if (s.frames.triangle[s.elements.face[m.element]]) {
+    sum.add(corner[0], share * std::max(m.count - m.s - m.t, 0.0f));
+    sum.add(corner[1], share * m.s);
+    sum.add(corner[2], share * m.t);
     return;
   }
-  sum.add(corner[0], share * (1 - st.x) * (1 - st.y));
-  sum.add(corner[1], share * st.x * (1 - st.y));
-  sum.add(corner[2], share * st.x * st.y);
-  sum.add(corner[3], share * (1 - st.x) * st.y);
+  sum.add(corner[0], share * std::max(m.count - m.s - m.t + m.st, 0.0f));
+  sum.add(corner[1], share * std::max(m.s - m.st, 0.0f));
+  sum.add(corner[2], share * m.st);
+  sum.add(corner[3], share * std::max(m.t - m.st, 0.0f));
+}
+
+// Adds a tile of samples, each of weight `share`. Neighbouring samples mostly show the same element.
+void add_tile(PixelSum& sum, const Solution& s, const Seen& seen, float share, bool smooth) {
+  Moments m;
+  CellFrame cell{Vec2(0), 1};
+  bool triangle = false;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t element = seen.element[k];
+    if (element != m.element) {
+      add_moments(sum, s, m, share, smooth);
+      m = {element};
+      if (element == kNone) continue;
+      triangle = s.frames.triangle[s.elements.face[element]];
+      cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
+    }
+    if (element == kNone) continue;
+    // Rounding may put the point a hair outside its cell: no negative weights.
+    Vec2 st = clamp((seen.uv[k] - cell.origin) / cell.size, Vec2(0), Vec2(1));
+    if (triangle && st.x + st.y > 1) st /= st.x + st.y;
+    m.count += 1, m.s += st.x, m.t += st.y, m.st += st.x * st.y;
+  }
+  add_moments(sum, s, m, share, smooth);
 }
 
 // Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is
@@ -231,8 +256,9 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
               at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
             }
             rays += look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+            add_tile(sum, s, seen, share, settings.smooth);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
-              add_sample(sum, s, seen, k, share, settings.smooth);
+              if (k > 0 && seen.element[k] == seen.element[k - 1]) continue;
               const bool on_lamp =
                   seen.element[k] != kNone && largest(faces.emission[s.elements.face[seen.element[k]]]) > 0;
               (on_lamp ? lamp : other) = true;

@@ -233,7 +233,7 @@ uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& 
     const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active);
+    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       views.tried[packet.source[k]] += active >> k & 1u;
       views.reached[packet.source[k]] += (active & ~blocked) >> k & 1u;
@@ -270,7 +270,7 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
     const uint32_t active = find_worthwhile(packet) & ~buried;
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active);
+    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k)
       if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * b.sent[packet.element[k]];
   }

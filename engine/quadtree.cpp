@@ -184,6 +184,26 @@ uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell) {
   return low;
 }
 
+LeafIndex make_leaf_index(const PatchTable& leaves) {
+  LeafIndex index;
+  const size_t face_count = leaves.face_first.size() - 1;
+  index.first.assign(1, 0);
+  for (size_t f = 0; f < face_count; ++f) {
+    // About a leaf a cell.
+    uint32_t level = 0;
+    while (level + 1 < kLevelMax && 4u << 2 * level <= leaves.face_first[f + 1] - leaves.face_first[f])
+      ++level;
+    index.level.push_back(static_cast<uint8_t>(level));
+    uint32_t row = leaves.face_first[f];
+    for (uint64_t cell = 0; cell < uint64_t{1} << 32; cell += cell_span(level)) {
+      while (row + 1 < leaves.face_first[f + 1] && leaves.cell[row + 1] <= cell) ++row;
+      index.leaf.push_back(row);
+    }
+    index.first.push_back(static_cast<uint32_t>(index.leaf.size()));
+  }
+  return index;
+}
+
 uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& frames,
                                const FaceLinkTable& links, uint32_t row, uint32_t edge) {
   const uint32_t other =

@@ -21,6 +21,26 @@ PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
 // The row of the leaf that holds a cell of level kLevelMax.
 uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell);
 
+// The same, sooner, for many questions about one table: where the leaves of each cell of a uniform level
+// begin.
+struct LeafIndex {
+  std::vector<uint32_t> first;  // faces + 1: rows of leaf
+  std::vector<uint8_t> level;   // a row a face
+  std::vector<uint32_t> leaf;   // the leaf that holds the first code of each cell
+};
+LeafIndex make_leaf_index(const PatchTable& leaves);
+inline uint32_t find_leaf(const PatchTable& leaves, const LeafIndex& index, uint32_t face, uint32_t cell) {
+  const uint32_t level = index.level[face];
+  const uint32_t at = index.first[face] + static_cast<uint32_t>(uint64_t{cell} >> (32 - 2 * level));
+  uint32_t low = index.leaf[at];
+  uint32_t high = at + 1 < index.first[face + 1] ? index.leaf[at + 1] + 1 : leaves.face_first[face + 1];
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (leaves.cell[middle] <= cell ? low : high) = middle;
+  }
+  return low;
+}
+
 // The leaves that share part of edge `edge` with leaf `row`: one, or two that are finer; kNone fills up. At
 // the border of a polygon both are kNone.
 std::array<uint32_t, 2> find_neighbours(const PatchTable& leaves, const FaceFrameTable& frames,

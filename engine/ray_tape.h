@@ -47,8 +47,6 @@ struct Replay {
 };
 Replay make_replay(const TapeTrack& track);
 
-enum class RayOrder { kCoherent, kIncoherent };  // which of its packet kernels Embree is told to take
-
 // Bare Embree: rtcOccluded16 and rtcIntersect16 over all packets, and putting back what they overwrote.
 void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order);
 void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order);

@@ -190,6 +190,7 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& rec
   hits.ray_count = grid.ray_count();
   hits.patch.resize(receivers.size() * hits.ray_count);
   hits.cell.resize(receivers.size() * hits.ray_count);
+  const LeafIndex index = make_leaf_index(patches);
   for_rows(receivers.size(), 16, [&](size_t begin, size_t end) {
     HitPacket packet;
     for (size_t row = begin; row < end; ++row) {
@@ -225,7 +226,7 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& rec
           const Vec3 point =
               Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) + r.far_distance[k] * direction;
           const uint32_t cell = find_cell(frames.triangle[seen], find_face_parameters(frames, seen, point));
-          hits.patch[first + k] = find_leaf(patches, seen, cell);
+          hits.patch[first + k] = find_leaf(patches, index, seen, cell);
           hits.cell[first + k] = cell;
         }
         if (back) {

@@ -139,7 +139,7 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
   }
 }
 
-uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active) {
+uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, RayOrder order) {
   if (tracer.state->tape) keep_packet(tracer.state->tape->visibility, packet, active);
   alignas(64) int valid[16];
   expand_mask(active, valid);
@@ -149,12 +149,14 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active) 
 #if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.flags =
+      order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   rtcOccluded16(valid, tracer.state->scene, rays, &arguments);
 #else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcOccluded16(valid, tracer.state->scene, &context, rays);
 #endif
   uint32_t blocked = 0;

@@ -41,8 +41,11 @@ Tracer make_tracer(const FaceTable& faces);
 
 // Nearest hit of the rays of `active` (bit k: ray k). Rays must be finite.
 void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active);
+// Which of its kernels Embree is told to take: for rays that stay together, or for rays that part.
+enum class RayOrder { kCoherent, kIncoherent };
 // Which of the rays of `active` are blocked before far_distance: a bit a ray.
-uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active);
+uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active,
+                      RayOrder order = RayOrder::kCoherent);
 
 // The name and version of the library, for --version.
 const char* tracer_version();
