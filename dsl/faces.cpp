@@ -124,13 +124,14 @@ struct FaceRow {
 };
 
 void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectance, uint32_t polygon,
-               uint32_t twin, float patch_size, uint8_t level) {
+               uint32_t surface, uint32_t twin, float patch_size, uint8_t level) {
   faces.corners.push_back(row.corners);
   faces.corner_count.push_back(row.corner_count);
   faces.normal.push_back(row.normal);
   faces.emission.push_back(emission);
   faces.reflectance.push_back(reflectance);
   faces.polygon.push_back(polygon);
+  faces.surface.push_back(surface);
   faces.twin.push_back(twin);
   faces.patch_size.push_back(patch_size);
   faces.level_min.push_back(level);
@@ -183,6 +184,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
     const auto polygon = static_cast<uint32_t>(scene.polygons.size());
     for (uint32_t k = 0; k < count; ++k)
       push_face(scene.faces, side == 0 ? rows[k] : turned_over(rows[k]), emission, reflectance, polygon,
+                objects.is_mesh[object] ? object : kNone,
                 !two_sided  ? kNone
                 : side == 0 ? first + count + k
                             : first + k,

@@ -249,6 +249,13 @@ void make_packets(PointPackets& packets, uint32_t count, const Strata& strata, c
   }
 }
 
+// About how far a point is from the nearest of the lamp.
+float find_gap(Vec3 point, const Lamp& lamp, const FaceFrameTable& frames) {
+  Vec2 uv = clamp(find_face_parameters(frames, lamp.face, point), Vec2(0), Vec2(1));
+  if (frames.triangle[lamp.face] && uv.x + uv.y > 1) uv /= uv.x + uv.y;
+  return distance(point, face_point(frames, lamp.face, uv));
+}
+
 // The element's mean unoccluded factor: at its centre, by Gauss's rule if the lamp is near, at its exposed
 // points if part of it is buried (`usable`: which of `points` are not).
 float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames, uint32_t row, Vec3 normal,
@@ -262,21 +269,28 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   }
   const uint32_t face = elements.face[row];
   const Vec3 centre = cell_centre(frames, face, elements.cell[row], elements.level[row]);
-  const float gap = distance(centre, lamp.centre) - 0.5f * lamp.diameter;
-  if (gap > kNearLamp * longest_edge(corners)) return find_factor(centre, normal, lamp);
+  const float edge = longest_edge(corners), gap = find_gap(centre, lamp, frames);
+  if (gap > kNearLamp * edge) return find_factor(centre, normal, lamp);
+  // Very near, where the factor changes much over the element, parts of it each take the rule.
+  const uint32_t parts_level = gap > 3 * edge ? 0 : gap > edge ? 1 : gap > 0.3f * edge ? 2 : 3;
+  const uint32_t level = std::min(elements.level[row] + parts_level, kLevelMax);
   // Points of Gauss's rules: four on a square, exact to the third degree; three on a triangle, to the second.
   constexpr float kSixth = 1 / 6.0f, kTwoThirds = 2 / 3.0f;
   constexpr float kSquare[4][2] = {
       {kGauss[0], kGauss[0]}, {kGauss[1], kGauss[0]}, {kGauss[0], kGauss[1]}, {kGauss[1], kGauss[1]}};
   constexpr float kTriangle[3][2] = {{kSixth, kSixth}, {kTwoThirds, kSixth}, {kSixth, kTwoThirds}};
   const bool triangle = frames.triangle[face];
-  const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
+  const uint32_t part_count = 1u << 2 * (level - elements.level[row]);
   float sum = 0;
-  for (const auto& point :
-       triangle ? std::span<const float[2]>(kTriangle) : std::span<const float[2]>(kSquare))
-    sum += find_factor(face_point(frames, face, cell.origin + cell.size * Vec2(point[0], point[1])), normal,
-                       lamp);
-  return sum / (triangle ? 3.0f : 4.0f);
+  for (uint32_t part = 0; part < part_count; ++part) {
+    const uint32_t below = level == 0 ? 0 : part << (32 - 2 * level);
+    const CellFrame cell = make_cell_frame(triangle, elements.cell[row] | below, level);
+    for (const auto& point :
+         triangle ? std::span<const float[2]>(kTriangle) : std::span<const float[2]>(kSquare))
+      sum += find_factor(face_point(frames, face, cell.origin + cell.size * Vec2(point[0], point[1])), normal,
+                         lamp);
+  }
+  return sum / (static_cast<float>(part_count) * (triangle ? 3.0f : 4.0f));
 }
 
 std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames) {

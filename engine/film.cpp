@@ -12,8 +12,11 @@
 namespace patchlight {
 namespace {
 
-constexpr uint32_t kSide = 4;           // samples a pixel: 4 x 4
-constexpr uint32_t kSideLamps = 16;     // where a lamp's border shows: 16 x 16
+constexpr uint32_t kSide = 4;  // samples a pixel: 4 x 4
+// Where elements of different brightness share a pixel, more: the noise of an edge's cover is as large as the
+// step is high. Steps are told in the scene's mean radiosity.
+constexpr uint32_t kSideContrast = 8, kSideHighContrast = 16;
+constexpr float kContrast = 2, kHighContrast = 10;
 constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
 
 struct Pinhole {
@@ -214,6 +217,19 @@ std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, con
   return cover;
 }
 
+// What each element will show, or 0 for those that are not lit: emission and the coarse solution.
+std::vector<float> forecast_elements(const Solution& s, const FaceTable& faces) {
+  std::vector<float> forecast(s.elements.size());
+  for_rows(forecast.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const uint32_t face = s.elements.face[row];
+      forecast[row] = largest(faces.emission[face] +
+                              faces.reflectance[face] * (s.direct[row] + s.coarse[s.element_patch[row]]));
+    }
+  });
+  return forecast;
+}
+
 }  // namespace
 
 FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view,
@@ -221,6 +237,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
   assert(s.frozen);
   assert(view.width > 0 && view.height > 0);
   const Pinhole pinhole = make_pinhole(view);
+  const std::vector<float> forecast = forecast_elements(s, faces);
   const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(faces, pinhole, view);
   const size_t pixel_count = size_t{view.width} * view.height;
   struct Chunk {
@@ -245,7 +262,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
         const uint64_t key = make_row_key(settings.seed, static_cast<uint32_t>(pixel), 0, 0, 0);
         // side x side samples, a tile of 4 x 4 at a time.
         const auto take = [&](uint32_t side) {
-          bool lamp = false, other = false;
+          float least = std::numeric_limits<float>::max(), most = 0;
           sum.clear();
           const uint32_t tiles = side / 4;
           const float step = 1 / static_cast<float>(side), share = step * step;
@@ -258,19 +275,17 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
             rays += look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
             add_tile(sum, s, seen, share, settings.smooth);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
-              if (k > 0 && seen.element[k] == seen.element[k - 1]) continue;
-              const bool on_lamp =
-                  seen.element[k] != kNone && largest(faces.emission[s.elements.face[seen.element[k]]]) > 0;
-              (on_lamp ? lamp : other) = true;
+              const float value = seen.element[k] == kNone ? 0 : forecast[seen.element[k]];
+              least = std::min(least, value), most = std::max(most, value);
             }
           }
-          return lamp && other;
+          return most - least;
         };
-        if (lamp_pixels[pixel]) {
-          take(kSideLamps);
-        } else if (take(kSide)) {
-          take(kSideLamps);
-        }
+        const float contrast = lamp_pixels[pixel] ? std::numeric_limits<float>::infinity() : take(kSide);
+        if (contrast > kHighContrast * s.mean_radiosity)
+          take(kSideHighContrast);
+        else if (contrast > kContrast * s.mean_radiosity)
+          take(kSideContrast);
         film.pixel_first[pixel + 1] = sum.value.size();
         chunks[c].value.insert(chunks[c].value.end(), sum.value.begin(), sum.value.end());
         chunks[c].weight.insert(chunks[c].weight.end(), sum.weight.begin(), sum.weight.end());

@@ -33,7 +33,8 @@ struct FilmTable {
   uint64_t ray_count = 0;
 };
 
-// Box mean of at least 16 samples a pixel; 256 where a lamp's border shows. Looks through back sides.
+// Box mean of at least 16 samples a pixel; 64 or 256 where very bright and dark elements share one, such as
+// the borders of lamps and sun spots. Looks through back sides.
 FilmTable make_film(const Solution& solution, const FaceTable& faces, const Tracer& tracer, const View& view,
                     const FilmSettings& settings);
 

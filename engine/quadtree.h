@@ -13,6 +13,12 @@ namespace patchlight {
 // nothing (the loader cuts them so); coinciding corners must be equal bit by bit.
 FaceLinkTable make_face_links(const FaceTable& faces);
 
+// The same, and the edges that two polygons of one surface share where their normals differ by less than the
+// crease angle, 30 degrees, and their materials are equal: what the eye is to take for one curved surface. Of
+// several polygons on an edge the two that go on most straightly are joined. Corners are the same all along
+// joined edges.
+FaceLinkTable join_smooth_edges(const FaceLinkTable& links, const FaceTable& faces);
+
 // Leaves of `level_of(face)` (at most kLevelMax - 1) on every face, not yet balanced. Radiosity columns start
 // at the face's emission.
 PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,

@@ -28,8 +28,8 @@ float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float thresh
 }  // namespace
 
 std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames,
-                                    const FaceLinkTable& links, float threshold, float patch_size_min,
-                                    uint64_t patch_count_max) {
+                                    const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
+                                    float patch_size_min, uint64_t patch_count_max) {
   const PatchTable& elements = input.elements;
   std::vector<float> excess(elements.size(), 0);  // the largest difference that each element has a part in
   for_rows(input.fresh.size(), 512, [&](size_t begin, size_t end) {
@@ -70,7 +70,7 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
        take -= std::max<size_t>(take / 8, 1)) {
     std::vector<uint8_t> marks(elements.size(), 0);
     for (size_t k = 0; k < take; ++k) marks[candidates[k]] = 1;
-    mark_for_balance(marks, elements, frames, links);
+    mark_for_balance(marks, elements, frames, joints);
     if (static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1)) <= room) return marks;
   }
   return std::vector<uint8_t>(elements.size(), 0);

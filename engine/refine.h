@@ -16,9 +16,10 @@ struct RefineInput {
 // Marks both of two neighbours whose radiosities differ by more than `threshold` of the larger one (largest
 // channel), by more than 1 % of the mean, and by more than their noise explains; not those whose longest edge
 // is below patch_size_min. Where the budget does not suffice, the largest differences (times area) go first.
-// Keeps the tree balanced. Returns a row an element; all 0 if nothing is to be split.
+// Neighbours are those across `links`: the two sides of a facet's edge differ, and no splitting changes that.
+// Keeps the tree balanced across `joints`. Returns a row an element; all 0 if nothing is to be split.
 std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames,
-                                    const FaceLinkTable& links, float threshold, float patch_size_min,
-                                    uint64_t patch_count_max);
+                                    const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
+                                    float patch_size_min, uint64_t patch_count_max);
 
 }  // namespace patchlight

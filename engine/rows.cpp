@@ -45,6 +45,17 @@ inline Vec3 make_local_direction(float px, float py) {
   return {u, v, std::sqrt(std::max(1 - u * u - v * v, 1e-9f))};
 }
 
+// Of the marked patches only the `count` largest: where the budget ends, they have the most to gain.
+void keep_largest(std::vector<uint8_t>& marks, uint64_t count, const PatchTable& patches) {
+  std::vector<uint32_t> rows;
+  for (uint32_t row = 0; row < marks.size(); ++row)
+    if (marks[row]) rows.push_back(row);
+  std::sort(rows.begin(), rows.end(), [&](uint32_t a, uint32_t b) {
+    return patches.area[a] != patches.area[b] ? patches.area[a] > patches.area[b] : a < b;
+  });
+  for (size_t k = count; k < rows.size(); ++k) marks[rows[k]] = 0;
+}
+
 }  // namespace
 
 RowGrid make_row_grid(uint32_t rays) {
@@ -245,14 +256,22 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& rec
 PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
                         const Tracer& tracer, uint64_t patch_count_max, uint64_t seed, uint64_t& ray_count) {
   const float scale = find_scene_scale(faces, frames);
-  PatchTable patches = make_leaves(faces, frames, [&](uint32_t face) {
+  // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
+  float edge_max = kPatchEdgeMax * scale;
+  const auto start_level = [&](uint32_t face) {
     uint32_t level = 0;
     float edge = longest_edge(cell_corners(frames, face, 0, 0));
-    while (edge > kPatchEdgeMax * scale && level < kLevelMax &&
-           (faces.size() << 2 * level) < patch_count_max / 4)
-      edge /= 2, ++level;
+    while (edge > edge_max && level < kLevelMax - 1) edge /= 2, ++level;
     return level;
-  });
+  };
+  const auto count_at_start = [&] {
+    uint64_t count = 0;
+    for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * start_level(f);
+    return count;
+  };
+  const uint64_t room_at_start = patch_count_max > faces.size() ? (patch_count_max - faces.size()) / 2 : 0;
+  while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
+  PatchTable patches = make_leaves(faces, frames, start_level);
   balance_leaves(patches, frames, links);
   const RowGrid grid = make_row_grid(kProbeRays);
   std::vector<uint8_t> fresh(patches.size(), 1);
@@ -268,13 +287,14 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
         const Frame frame = make_frame(faces.normal[face]);
         const uint64_t key = make_row_key(seed, face, cell, level, kRowProbe);
         float inverse_sum = 0;
-        uint32_t buried_count = 0;
+        uint32_t buried_count = 0, hit_count = 0;
         for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
           make_row_packet(packet, frames, frame, face, cell, level, key, grid, tile);
           find_hits(tracer, packet, 0xffff);
           uint32_t back = 0;
           for (uint32_t k = 0; k < kPacketSize; ++k) {
             if (packet.face[k] == kNone) continue;
+            ++hit_count;
             inverse_sum += 1 / std::max(packet.ray.far_distance[k], 1e-6f);
             const RayPacket& r = packet.ray;
             const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
@@ -284,7 +304,7 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
         }
         probed += grid.ray_count();
         const bool at_solid = buried_count > 0 && buried_count < grid.ray_count();
-        const bool near = edge * inverse_sum > kPatchEdgePerDistance * static_cast<float>(grid.ray_count());
+        const bool near = edge * inverse_sum > kPatchEdgePerDistance * static_cast<float>(hit_count);
         const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
         if (buried_count == grid.ray_count() || !(near || at_solid) || edge < 2 * edge_min) continue;
         marks[row] = 1;
@@ -292,11 +312,15 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
       }
     });
     ray_count += probed;
-    if (!marked || patches.size() + 3 * marked > patch_count_max) return patches;
+    if (!marked) return patches;
+    const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 3 : 0;
+    const bool last = marked > room;
+    if (last) keep_largest(marks, room, patches);
     mark_for_balance(marks, patches, frames, links);
     std::vector<uint32_t> parent;
     const PatchTable before = std::move(patches);
     patches = split_leaves(before, frames, marks, parent);
+    if (last) return patches;
     fresh.assign(patches.size(), 0);
     for (size_t row = 0; row < patches.size(); ++row) fresh[row] = marks[parent[row]];
   }

@@ -57,11 +57,11 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& rec
 
 // Of the square root of the scene's area: a patch is never larger, and not split below the smallest.
 constexpr float kPatchEdgeMax = 0.06f;
-constexpr float kPatchEdgeMin = 0.006f;
+constexpr float kPatchEdgeMin = 0.005f;
 constexpr float kPatchEdgeMinAtSolid = 0.003f;
 // A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992,
 // use the same mean for the reach of a sample).
-constexpr float kPatchEdgePerDistance = 0.25f;
+constexpr float kPatchEdgePerDistance = 0.14f;
 
 // Patches as fine as the transport between them needs: split while larger than a quarter of the mean distance
 // to what they see. Returns balanced leaves; ray_count is raised by the probing rays.

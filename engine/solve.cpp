@@ -71,6 +71,14 @@ uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& fra
   return count;
 }
 
+// How many patches may carry light between surfaces: one a face, and half of what that leaves of the budget,
+// but no more than rooms need (4,000 to 15,000; a room of a million elements is no harder).
+uint64_t count_transport_patches(const FaceTable& faces, const SolverSettings& settings) {
+  constexpr uint64_t kMore = 24000;
+  const uint64_t face_count = faces.size(), budget = std::max<uint64_t>(settings.patch_count_max, face_count);
+  return face_count + std::min((budget - face_count) / 2, kMore);
+}
+
 struct PatchSizes {
   float start, least;
 };
@@ -78,11 +86,12 @@ PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames
                             const SolverSettings& settings) {
   float start = settings.patch_size;
   if (start <= 0) {
-    // An automatic size leaves half of the budget to the rounds.
+    // An automatic size leaves half of what the faces themselves do not take of the budget to the rounds.
     const float scale = find_scene_scale(faces, frames);
+    const uint64_t face_count = std::min<uint64_t>(faces.size(), settings.patch_count_max);
+    const uint64_t most = face_count + (settings.patch_count_max - face_count) / 2;
     start = kPatchSize * scale;
-    while (start < scale && count_leaves_at_start(faces, frames, start) > settings.patch_count_max / 2)
-      start *= 1.25f;
+    while (start < scale && count_leaves_at_start(faces, frames, start) > most) start *= 1.25f;
   }
   return {start, settings.patch_size_min > 0 ? settings.patch_size_min : kPatchSizeMin * start};
 }
@@ -297,16 +306,17 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   uint64_t ray_count = 0;
   s.frames = make_face_frames(faces);
   s.links = make_face_links(faces);
-  s.patches =
-      make_patches(faces, s.frames, s.links, tracer, settings.patch_count_max / 2, settings.seed, ray_count);
+  s.joints = join_smooth_edges(s.links, faces);
+  s.patches = make_patches(faces, s.frames, s.joints, tracer, count_transport_patches(faces, settings),
+                           settings.seed, ray_count);
   s.receivers = make_receivers(s.patches, faces, s.frames, tracer, settings.seed, ray_count);
   s.seconds.split += watch.read();
   ray_count +=
       cast_rows(s.hits, s.patches, s.receivers, faces, s.frames, tracer, settings.rays, settings.seed);
   s.seconds.trace += watch.read();
-  s.patch_vertices = make_vertices(s.patches, s.frames, s.links);
+  s.patch_vertices = make_vertices(s.patches, s.frames, s.joints);
   s.elements =
-      make_elements(s.patches, faces, s.frames, s.links, find_patch_sizes(faces, s.frames, settings).start);
+      make_elements(s.patches, faces, s.frames, s.joints, find_patch_sizes(faces, s.frames, settings).start);
   find_element_patches(s);
   s.seconds.split += watch.read();
   s.aims = make_aims(faces, s.frames, s.patches, s.receivers);
@@ -334,8 +344,8 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   const float patch_size_min = find_patch_sizes(faces, s.frames, settings).least;
   const std::vector<float> error = find_errors(s, faces, patch_size_min);
   const std::vector<uint8_t> marks =
-      mark_differing({s.elements, error, s.fresh, s.mean_radiosity}, s.frames, s.links, settings.threshold,
-                     patch_size_min, settings.patch_count_max);
+      mark_differing({s.elements, error, s.fresh, s.mean_radiosity}, s.frames, s.links, s.joints,
+                     settings.threshold, patch_size_min, settings.patch_count_max);
   const auto split_count = static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1));
   if (split_count == 0) {
     s.seconds.split += watch.read();
@@ -383,7 +393,7 @@ void freeze(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   s.seconds.trace += watch.read();
   s.views = {};
   s.fresh = {};
-  s.element_vertices = make_vertices(s.elements, s.frames, s.links);
+  s.element_vertices = make_vertices(s.elements, s.frames, s.joints);
   for (size_t row = 0; row < s.elements.size(); ++row)
     s.elements.radiosity[row] = s.elements.unshot[row] = faces.emission[s.elements.face[row]];
   for (size_t p = 0; p < s.patches.size(); ++p)
@@ -439,8 +449,12 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
 
 bool is_converged(const Solution& s, const SolverSettings& settings) {
   if (s.passes.empty()) return false;
-  const float first = s.passes.front().added_largest, last = s.passes.back().added_largest;
-  return last == 0 || static_cast<double>(last) < settings.until * first;
+  const PassReport &first = s.passes.front(), &last = s.passes.back();
+  if (last.added_largest == 0) return true;
+  const auto sum = [](const DRgb& power) { return power.r + power.g + power.b; };
+  return static_cast<double>(last.added_largest) <
+             settings.until * static_cast<double>(first.added_largest) &&
+         sum(last.added_power) < settings.until * sum(first.added_power);
 }
 
 std::vector<Rgb> vertex_radiosity(const Solution& s, const FaceTable& faces) {
@@ -474,12 +488,11 @@ uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& se
 
 uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) {
   // Bytes a row, from tables.h; the largest moment is a split, when the elements exist twice, or the making
-  // of the shared corners. Patches are at most half the budget, and at least one a face.
+  // of the shared corners.
   constexpr uint64_t kFaceBytes = 700, kElementBytes = 190, kPatchBytes = 200;
   const uint64_t start = count_starting_patches(faces, settings);
   const uint64_t elements = std::max(start, settings.patch_count_max);
-  const uint64_t patches =
-      std::max<uint64_t>(faces.size(), std::min<uint64_t>(settings.patch_count_max / 2, 20000));
+  const uint64_t patches = count_transport_patches(faces, settings);
   const uint64_t row_bytes = 8 * uint64_t{make_row_grid(settings.rays).ray_count()};
   return kFaceBytes * faces.size() + kElementBytes * elements + (kPatchBytes + row_bytes) * patches;
 }
@@ -496,11 +509,11 @@ uint64_t count_bytes(const Solution& s) {
   };
   const FaceFrameTable& f = s.frames;
   return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.element_first, s.element_patch, s.aims.list_of, s.aims.list_first,
-               s.aims.lamp, s.receivers.first, s.receivers.patch, s.receivers.area_until, s.receivers.centre,
-               s.receivers.normal, s.receivers.receiver_of, s.views.seen, s.views.hidden, s.views.settled,
-               s.hits.patch, s.hits.cell, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
-               s.coarse, s.coarse_error, s.fresh) +
+               s.links.corner, s.joints.edge, s.joints.corner, s.element_first, s.element_patch,
+               s.aims.list_of, s.aims.list_first, s.aims.lamp, s.receivers.first, s.receivers.patch,
+               s.receivers.area_until, s.receivers.centre, s.receivers.normal, s.receivers.receiver_of,
+               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct,
+               s.direct_error, s.irradiance, s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
          vertex_bytes(s.element_vertices);
 }

@@ -46,7 +46,8 @@ struct Seconds {
 
 struct Solution {
   FaceFrameTable frames;
-  FaceLinkTable links;
+  FaceLinkTable links;   // within polygons
+  FaceLinkTable joints;  // and across smooth edges between them
   PatchTable patches, elements;
   std::vector<uint32_t> element_first;  // CSR: patch -> its elements, patches + 1
   std::vector<uint32_t> element_patch;  // a row an element
@@ -86,7 +87,9 @@ void freeze(Solution& solution, const FaceTable& faces, const Tracer& tracer, co
 const PassReport& advance(Solution& solution, const FaceTable& faces, const Tracer& tracer,
                           const SolverSettings& settings);
 
-// True once the last pass added less than `until` says.
+// True once the last pass added less than the share `until` of what pass 1 added: of its largest radiosity,
+// and of its power. Beside a small bright spot the first alone would leave a dim room short of its last
+// bounces.
 bool is_converged(const Solution& solution, const SolverSettings& settings);
 
 // Radiosity at the vertices of the elements after the passes so far, W/m2: what the smooth picture shows.

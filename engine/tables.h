@@ -24,6 +24,7 @@ struct FaceTable {
   std::vector<Rgb> emission;          // W/m2, >= 0
   std::vector<Rgb> reflectance;       // 0..1
   std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from; ascending
+  std::vector<uint32_t> surface;      // faces of one imported surface, whose edges may be smooth; kNone: none
   std::vector<uint32_t> twin;         // the face back to back with this one (two-sided), or kNone
   std::vector<float> patch_size;      // longest edge of a starting patch on it; 0: as the settings say
   std::vector<uint8_t> level_min;     // it starts at least this often halved
@@ -43,7 +44,8 @@ struct FaceFrameTable {
   size_t size() const { return origin.size(); }
 };
 
-// Which edges and corners of the faces of one polygon are the same: light is continuous across them.
+// Which edges and corners of faces are the same, so that light is continuous across them: those of the faces
+// of one polygon, or also those of the polygons of a smooth surface.
 struct FaceLinkTable {
   struct Edge {
     uint32_t face = kNone;  // the face on the other side, or kNone at the polygon's border

@@ -38,6 +38,7 @@ inline uint32_t add_face(FaceTable& faces, std::span<const Vec3> corners, uint32
   faces.emission.push_back(surface.emission);
   faces.reflectance.push_back(surface.reflectance);
   faces.polygon.push_back(polygon);
+  faces.surface.push_back(kNone);
   faces.twin.push_back(kNone);
   faces.patch_size.push_back(0);
   faces.level_min.push_back(0);

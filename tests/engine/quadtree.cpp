@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace patchlight;
 
@@ -261,4 +262,65 @@ TEST_CASE("a leaf at the deepest level has its place and its neighbours") {
   CHECK(*std::max_element(mesh.leaves.level.begin(), mesh.leaves.level.end()) == kLevelMax - 1);
   check_sorted(mesh);
   check_neighbours(mesh, find_perimeter(kMixedRim));
+}
+
+namespace {
+
+// A fan of `count` quads about the y axis, one polygon each, `angle` degrees from one to the next, all of one
+// surface.
+FaceTable make_bent_strip(uint32_t count, float angle) {
+  FaceTable faces;
+  Vec3 at(0, 0, 0);
+  for (uint32_t k = 0; k < count; ++k) {
+    const float turned = angle * static_cast<float>(k) * 3.14159265f / 180;
+    const Vec3 next = at + Vec3(std::cos(turned), 0, std::sin(turned));
+    add_quad(faces, at, next, next + Vec3(0, 1, 0), at + Vec3(0, 1, 0), {Rgb(0), Rgb(0.5f)});
+    faces.surface.back() = 7;
+    at = next;
+  }
+  return faces;
+}
+
+}  // namespace
+
+TEST_CASE("smooth edges: polygons of one surface are joined below the crease angle, and only they") {
+  const auto joined = [](const FaceTable& faces) {
+    return join_smooth_edges(make_face_links(faces), faces).edge[0][1].face;
+  };
+  CHECK(joined(make_bent_strip(2, 29)) == 1);
+  CHECK(joined(make_bent_strip(2, 31)) == kNone);
+  FaceTable other_surface = make_bent_strip(2, 10);
+  other_surface.surface[1] = 8;
+  CHECK(joined(other_surface) == kNone);
+  FaceTable no_surface = make_bent_strip(2, 10);
+  no_surface.surface.assign(2, kNone);
+  CHECK(joined(no_surface) == kNone);
+  FaceTable other_material = make_bent_strip(2, 10);
+  other_material.reflectance[1] = Rgb(0.4f);
+  CHECK(joined(other_material) == kNone);
+}
+
+TEST_CASE("smooth edges: corners are the same all along joined edges, and the polygons' own links stay") {
+  const FaceTable faces = make_bent_strip(4, 20);
+  const FaceLinkTable links = make_face_links(faces), joints = join_smooth_edges(links, faces);
+  for (uint32_t f = 0; f < 3; ++f) {
+    CHECK(links.edge[f][1].face == kNone);
+    CHECK(joints.edge[f][1].face == f + 1);
+    CHECK(joints.edge[f][1].edge == 3);
+    CHECK(joints.edge[f + 1][3].face == f);
+    CHECK(joints.corner[f][1] == joints.corner[f + 1][0]);
+    CHECK(joints.corner[f][2] == joints.corner[f + 1][3]);
+    CHECK(joints.corner[f][0] != joints.corner[f][1]);
+  }
+}
+
+TEST_CASE("smooth edges: of three polygons on an edge the two that go on most straightly are joined") {
+  FaceTable faces = make_bent_strip(2, 20);
+  // A third one starts at the edge between them, less bent.
+  const Vec3 corner(1, 0, 0), next = corner + Vec3(std::cos(0.1f), 0, std::sin(0.1f));
+  add_quad(faces, corner, next, next + Vec3(0, 1, 0), corner + Vec3(0, 1, 0), {Rgb(0), Rgb(0.5f)});
+  faces.surface.back() = 7;
+  const FaceLinkTable joints = join_smooth_edges(make_face_links(faces), faces);
+  CHECK(joints.edge[0][1].face == 2);
+  CHECK(joints.edge[1][3].face == kNone);
 }

@@ -39,7 +39,7 @@ Field make_field(float dark, float bright) {
 
 std::vector<uint8_t> mark(const Field& field, float threshold, float size_min, uint64_t budget, float mean) {
   return mark_differing({field.elements, field.error, field.fresh, mean}, field.frames, field.links,
-                        threshold, size_min, budget);
+                        field.links, threshold, size_min, budget);
 }
 
 ptrdiff_t count_marked(const std::vector<uint8_t>& marks) {

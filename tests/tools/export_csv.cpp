@@ -22,6 +22,7 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   faces.emission.emplace_back(1, 2, 3);
   faces.reflectance.emplace_back(0.1f);
   faces.polygon = {0};
+  faces.surface = {kNone};
   faces.twin = {kNone};
   faces.patch_size = {0};
   faces.level_min = {0};
