@@ -64,7 +64,7 @@ void cut_quad(const FlatPolygon& polygon, bool few, CutFaces& cut) {
 bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut) {
   cut.points = polygon.points;
   cut.faces.clear();
-  const bool flat_enough = polygon.off_plane <= kFlatMax && !polygon.only_triangles;
+  const bool flat_enough = polygon.off_plane <= kQuadFlatMax && !polygon.only_triangles;
   const bool one_ring = polygon.ring_count() == 1;
   const bool few = emits || polygon.of_mesh;
   if (one_ring && polygon.points.size() == 3) {

@@ -25,6 +25,9 @@ struct FlatPolygon {
   size_t ring_count() const { return ring_first.size() - 1; }
 };
 
+// off_plane up to which faces may be quads. A quad's points are bilinear and a ray meets its two triangles:
+// further apart than a ray's offset, points of the one would lie behind the other and see its back.
+constexpr double kQuadFlatMax = 2e-6;
 constexpr double kFlatMax = 1e-4;       // off_plane up to which a polygon counts as flat
 constexpr double kNonPlanarMax = 0.02;  // off_plane up to which it is cut into triangles
 

@@ -35,9 +35,9 @@ constexpr uint32_t kSourceCount = 400;
 constexpr double kCoarseUntil = 0.005;
 constexpr uint32_t kCoarsePassesMax = 64;
 // Direct light has edges: follow them closely. Indirect light is smooth and carries the noise of its rows:
-// one step, which takes back the blur of the means and lets little of the noise through.
+// plain means between patches, which are small where it bends.
 constexpr ReconstructSettings kDirectSurface{.sharpen_steps = 3, .border_steps = 3};
-constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 1, .border_steps = 2};
+constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 0, .border_steps = 2};
 
 class Stopwatch {
  public:
