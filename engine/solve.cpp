@@ -250,7 +250,9 @@ std::vector<float> find_errors(const Solution& s, const FaceTable& faces, float 
 template <typename T>
 void inherit(std::vector<T>& column, std::span<const uint32_t> parent) {
   std::vector<T> next(parent.size());
-  for (size_t row = 0; row < parent.size(); ++row) next[row] = column[parent[row]];
+  for_rows(parent.size(), 16384, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) next[row] = column[parent[row]];
+  });
   column = std::move(next);
 }
 

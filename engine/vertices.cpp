@@ -7,6 +7,7 @@
 
 #include "parallel.h"
 
+#include <atomic>
 #include <cassert>
 #include <limits>
 
@@ -110,27 +111,33 @@ VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames
   table.hanging_between.assign(names.size(), {kNone, kNone});
   table.border.assign(names.size(), 0);
   std::vector<uint8_t> hanging_level(names.size(), 0);
-  for (size_t row = 0; row < leaves.size(); ++row) {
-    const uint32_t face = leaves.face[row], level = leaves.level[row], edges = edge_count(frames, face);
-    for (uint32_t edge = 0; edge < edges; ++edge) {
-      const uint32_t from = table.leaf_vertex[row][edge], to = table.leaf_vertex[row][(edge + 1) % edges];
-      const uint32_t other = find_coarse_neighbour(leaves, frames, links, static_cast<uint32_t>(row), edge);
-      if (other == kNone) {
-        // Finer leaves on the other side, or none at all.
-        if (find_neighbours(leaves, frames, links, static_cast<uint32_t>(row), edge)[0] == kNone)
-          table.border[from] = table.border[to] = 1;
-        continue;
+  // Leaves that share such a corner write the same.
+  const auto write = [](auto& slot, auto value) {
+    std::atomic_ref(slot).store(value, std::memory_order_relaxed);
+  };
+  for_rows(leaves.size(), 2048, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const uint32_t face = leaves.face[row], level = leaves.level[row], edges = edge_count(frames, face);
+      for (uint32_t edge = 0; edge < edges; ++edge) {
+        const uint32_t from = table.leaf_vertex[row][edge], to = table.leaf_vertex[row][(edge + 1) % edges];
+        const uint32_t other = find_coarse_neighbour(leaves, frames, links, static_cast<uint32_t>(row), edge);
+        if (other == kNone) {
+          // Finer leaves on the other side, or none at all.
+          if (find_neighbours(leaves, frames, links, static_cast<uint32_t>(row), edge)[0] == kNone)
+            write(table.border[from], uint8_t{1}), write(table.border[to], uint8_t{1});
+          continue;
+        }
+        if (leaves.level[other] == level) continue;
+        const uint32_t parent = cell_ancestor(leaves.cell[row], level - 1);
+        const auto ends = cell_corner_parameters(frames.triangle[face], parent, level - 1);
+        const uint32_t first = find_vertex(corner_key(face, ends[edge], frames, links));
+        const uint32_t second = find_vertex(corner_key(face, ends[(edge + 1) % edges], frames, links));
+        const uint32_t hanging = from == first ? to : from;
+        write(table.hanging_between[hanging][0], first), write(table.hanging_between[hanging][1], second);
+        write(hanging_level[hanging], static_cast<uint8_t>(level));
       }
-      if (leaves.level[other] == level) continue;
-      const uint32_t parent = cell_ancestor(leaves.cell[row], level - 1);
-      const auto ends = cell_corner_parameters(frames.triangle[face], parent, level - 1);
-      const uint32_t first = find_vertex(corner_key(face, ends[edge], frames, links));
-      const uint32_t second = find_vertex(corner_key(face, ends[(edge + 1) % edges], frames, links));
-      const uint32_t hanging = from == first ? to : from;
-      table.hanging_between[hanging] = {first, second};
-      hanging_level[hanging] = static_cast<uint8_t>(level);
     }
-  }
+  });
   // The ends of a coarse edge may hang themselves, but only on edges that are coarser still.
   for (uint32_t vertex = 0; vertex < names.size(); ++vertex)
     if (table.hanging_between[vertex][0] != kNone) table.hanging_order.push_back(vertex);
