@@ -64,10 +64,10 @@ Replay make_replay(const TapeTrack& track) {
   return replay;
 }
 
-void replay_find_blocked(const Tracer& tracer, Replay& replay) {
+void replay_find_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {
   for (size_t p = 0; p < replay.packets.size(); ++p) {
     put_back(replay, p);
-    find_blocked(tracer, replay.packets[p].ray, replay.active[p]);
+    find_blocked(tracer, replay.packets[p].ray, replay.active[p], order);
   }
 }
 

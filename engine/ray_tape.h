@@ -52,7 +52,7 @@ void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order);
 void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order);
 
 // The same packets through the engine's own find_blocked and find_hits.
-void replay_find_blocked(const Tracer& tracer, Replay& replay);
+void replay_find_blocked(const Tracer& tracer, Replay& replay, RayOrder order);
 void replay_find_hits(const Tracer& tracer, Replay& replay);
 
 }  // namespace patchlight

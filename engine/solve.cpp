@@ -335,6 +335,7 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   find_coarse_radiosity(s, s.fresh, faces);
   find_mean_radiosity(s, faces);
   s.seconds.solve += watch.read();
+  s.transport_ray_count = ray_count;
   s.rounds.push_back({1, count, 0, ray_count + s.direct_ray_count, whole.read()});
   return s;
 }
@@ -417,10 +418,11 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
     report.ray_count = s.direct_ray_count;
   } else if (report.pass == 2) {
     const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
-    report.ray_count =
+    const uint64_t aimed =
         gather_elements(s.irradiance_added, s.hits, s.receivers, s.patches, {s.elements, s.element_first},
-                        s.elements.unshot, sources, faces, s.frames, tracer, settings.seed) +
-        uint64_t{s.hits.ray_count} * s.receivers.size();
+                        s.elements.unshot, sources, faces, s.frames, tracer, settings.seed);
+    s.transport_ray_count += aimed;
+    report.ray_count = aimed + uint64_t{s.hits.ray_count} * s.receivers.size();
   } else {
     const std::vector<Rgb> sent = s.patches.unshot;
     gather_patches(s.irradiance_added, {}, s.hits, s.receivers, sent);

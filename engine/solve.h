@@ -66,7 +66,8 @@ struct Solution {
   float mean_radiosity = 0;         // of the coarse solution, reflected light only, W/m2 (largest channel)
   std::vector<uint32_t> fresh;      // elements that the last round made
   uint64_t direct_ray_count = 0;
-  bool frozen = false;  // the mesh is final
+  uint64_t transport_ray_count = 0;  // probes, rows and the aimed rays of pass 2
+  bool frozen = false;               // the mesh is final
   std::vector<RoundReport> rounds;
   std::vector<PassReport> passes;
   Seconds seconds;

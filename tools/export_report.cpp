@@ -59,10 +59,9 @@ std::vector<double> find_row_sums(const Solution& solution, const FaceTable& fac
 }
 
 uint64_t count_rays(const RunReport& report, const Solution& solution) {
-  uint64_t rays = report.film_rays;
-  for (const RoundReport& round : solution.rounds) rays += round.ray_count;
-  for (const PassReport& pass : solution.passes) rays += pass.ray_count;
-  return rays;
+  // Not the sums of rounds and passes: a pass names the rays whose results it uses first, cast in a round or
+  // not.
+  return report.film_rays + solution.direct_ray_count + solution.transport_ray_count;
 }
 
 std::string format_report(const RunReport& report, const Scene& scene, const Solution& solution) {

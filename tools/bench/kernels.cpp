@@ -134,9 +134,10 @@ Kernel ray_kernel(std::string name, std::function<double()> run, std::function<v
 }
 
 // A kernel beside bare Embree on the rays of its tape: four rows, the kernel itself last. Those of neither
-// kind are left out: the few rays of find_direct that look for buried points, for one.
+// kind are left out: the few rays of find_direct that look for buried points, for one. order: what the kernel
+// asks of the tracer.
 void add_ray_kernels(std::vector<Kernel>& kernels, const std::string& name, const Bench& b,
-                     const TapeTrack& track, bool visibility, std::function<double()> whole,
+                     const TapeTrack& track, bool visibility, RayOrder order, std::function<double()> whole,
                      std::function<void()> prepare) {
   const auto replay = std::make_shared<Replay>(make_replay(track));
   const auto rays = static_cast<double>(count_kept_rays(track));
@@ -152,7 +153,11 @@ void add_ray_kernels(std::vector<Kernel>& kernels, const std::string& name, cons
       [bare](const Tracer& tracer, Replay& packets) { bare(tracer, packets, RayOrder::kCoherent); });
   add("bare " + call + ", incoherent",
       [bare](const Tracer& tracer, Replay& packets) { bare(tracer, packets, RayOrder::kIncoherent); });
-  add(visibility ? "find_blocked" : "find_hits", visibility ? replay_find_blocked : replay_find_hits);
+  if (visibility)
+    add("find_blocked",
+        [order](const Tracer& tracer, Replay& packets) { replay_find_blocked(tracer, packets, order); });
+  else
+    add("find_hits", replay_find_hits);
   kernels.push_back(ray_kernel(name, std::move(whole), std::move(prepare)));
 }
 
@@ -160,12 +165,12 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
   const FaceTable& faces = b.scene.faces;
   std::vector<Kernel> kernels;
   if (tapes.direct.visibility.ray_count > 0)
-    add_ray_kernels(kernels, "find_direct", b, tapes.direct.visibility, true,
+    add_ray_kernels(kernels, "find_direct", b, tapes.direct.visibility, true, RayOrder::kCoherent,
                     [&] { return static_cast<double>(direct_light(scratch, b)); }, {});
-  add_ray_kernels(kernels, "cast_rows", b, tapes.rows.nearest, false,
+  add_ray_kernels(kernels, "cast_rows", b, tapes.rows.nearest, false, RayOrder::kCoherent,
                   [&] { return static_cast<double>(rows_of_patches(scratch, b)); }, {});
   if (tapes.aimed.visibility.ray_count > 0)
-    add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.visibility, true,
+    add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.visibility, true, RayOrder::kIncoherent,
                     [&] { return static_cast<double>(second_pass(scratch, b)); }, {});
 
   const auto factors = static_cast<double>(b.passed.hits.patch.size());
