@@ -25,12 +25,7 @@ uint32_t valid_count(const HitTable& hits, size_t row) {
 }
 
 uint32_t find_element(const Elements& elements, uint32_t patch, uint32_t cell) {
-  uint32_t low = elements.first[patch], high = elements.first[patch + 1];
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (elements.table.cell[middle] <= cell ? low : high) = middle;
-  }
-  return low;
+  return find_leaf_between(elements.table, elements.first[patch], elements.first[patch + 1], cell);
 }
 
 // How a patch shares its aimed rays among the sources: by an estimate of what each sends it.

@@ -18,7 +18,7 @@ void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const Rece
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const HitTable& hits,
                     const ReceiverTable& receivers, std::span<const Rgb> sent);
 
-// Bright places to aim at: nodes of the element trees that send more than twice the scene's mean, about
+// Bright places to aim at: nodes of the element trees that send more than three times the scene's mean, about
 // `count` of them, always the node of most flux split first.
 SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
                          std::span<const Rgb> sent, uint32_t count);

@@ -265,13 +265,7 @@ PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
 }
 
 uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell) {
-  // The last leaf that starts at or before the cell; the first leaf of a face starts at 0.
-  uint32_t low = leaves.face_first[face], high = leaves.face_first[face + 1];
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (leaves.cell[middle] <= cell ? low : high) = middle;
-  }
-  return low;
+  return find_leaf_between(leaves, leaves.face_first[face], leaves.face_first[face + 1], cell);
 }
 
 LeafIndex make_leaf_index(const PatchTable& leaves) {

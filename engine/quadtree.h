@@ -24,6 +24,15 @@ FaceLinkTable join_smooth_edges(const FaceLinkTable& links, const FaceTable& fac
 PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
                        const std::function<uint32_t(uint32_t)>& level_of);
 
+// Of the rows [low, high) of one face, the last leaf that starts at or before a cell; the first must.
+inline uint32_t find_leaf_between(const PatchTable& leaves, uint32_t low, uint32_t high, uint32_t cell) {
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (leaves.cell[middle] <= cell ? low : high) = middle;
+  }
+  return low;
+}
+
 // The row of the leaf that holds a cell of level kLevelMax.
 uint32_t find_leaf(const PatchTable& leaves, uint32_t face, uint32_t cell);
 
@@ -38,13 +47,9 @@ LeafIndex make_leaf_index(const PatchTable& leaves);
 inline uint32_t find_leaf(const PatchTable& leaves, const LeafIndex& index, uint32_t face, uint32_t cell) {
   const uint32_t level = index.level[face];
   const uint32_t at = index.first[face] + static_cast<uint32_t>(uint64_t{cell} >> (32 - 2 * level));
-  uint32_t low = index.leaf[at];
-  uint32_t high = at + 1 < index.first[face + 1] ? index.leaf[at + 1] + 1 : leaves.face_first[face + 1];
-  while (high - low > 1) {
-    const uint32_t middle = low + (high - low) / 2;
-    (leaves.cell[middle] <= cell ? low : high) = middle;
-  }
-  return low;
+  const uint32_t low = index.leaf[at];
+  const uint32_t high = at + 1 < index.first[face + 1] ? index.leaf[at + 1] + 1 : leaves.face_first[face + 1];
+  return find_leaf_between(leaves, low, high, cell);
 }
 
 // The leaves that share part of edge `edge` with leaf `row`: one, or two that are finer; kNone fills up. At

@@ -86,6 +86,41 @@ void add_geometry(TracerState& state, const FaceTable& faces, RTCGeometryType ty
   rtcReleaseGeometry(geometry);
 }
 
+// Embree's own two calls: the only lines in which its versions differ.
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+RTCRayQueryFlags find_flags(RayOrder order) {
+  return order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+}
+void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = find_flags(order);
+  rtcIntersect16(valid, tracer.state->scene, reinterpret_cast<RTCRayHit16*>(&packet), &arguments);
+}
+void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = find_flags(order);
+  rtcOccluded16(valid, tracer.state->scene, reinterpret_cast<RTCRay16*>(&packet), &arguments);
+}
+#else
+RTCIntersectContext make_context(RayOrder order) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return context;
+}
+void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
+  RTCIntersectContext context = make_context(order);
+  rtcIntersect16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
+}
+void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
+  RTCIntersectContext context = make_context(order);
+  rtcOccluded16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRay16*>(&packet));
+}
+#endif
+
 }  // namespace
 
 Tracer make_tracer(const FaceTable& faces) {
@@ -115,18 +150,7 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
     packet.ray.time[k] = 0, packet.ray.mask[k] = ~0u, packet.ray.id[k] = k, packet.ray.flags[k] = 0;
     packet.geometry[k] = packet.face[k] = packet.instance[k] = RTC_INVALID_GEOMETRY_ID;
   }
-  auto* rays = reinterpret_cast<RTCRayHit16*>(&packet);
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  rtcIntersect16(valid, tracer.state->scene, rays, &arguments);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, tracer.state->scene, &context, rays);
-#endif
+  trace_nearest(tracer, valid, packet, RayOrder::kCoherent);
   for (uint32_t k = 0; k < 16; ++k) {
     if (packet.geometry[k] == RTC_INVALID_GEOMETRY_ID || !valid[k]) {
       packet.face[k] = kNone;
@@ -145,20 +169,7 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, 
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k)
     packet.time[k] = 0, packet.mask[k] = ~0u, packet.id[k] = k, packet.flags[k] = 0;
-  auto* rays = reinterpret_cast<RTCRay16*>(&packet);
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags =
-      order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-  rtcOccluded16(valid, tracer.state->scene, rays, &arguments);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcOccluded16(valid, tracer.state->scene, &context, rays);
-#endif
+  trace_blocked(tracer, valid, packet, order);
   uint32_t blocked = 0;
   for (uint32_t k = 0; k < 16; ++k) blocked |= (packet.far_distance[k] < 0 ? 1u : 0u) << k;
   return blocked & active;
@@ -167,49 +178,19 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, 
 void record_rays(const Tracer& tracer, RayTape* tape) { tracer.state->tape = tape; }
 
 void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-  RTCOccludedArguments how;
-  rtcInitOccludedArguments(&how);
-  how.flags = order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-#else
-  RTCIntersectContext how;
-  rtcInitIntersectContext(&how);
-  how.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-#endif
   for (size_t p = 0; p < replay.packets.size(); ++p) {
     RayPacket& packet = replay.packets[p].ray;
     std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.far_distance);
-    auto* rays = reinterpret_cast<RTCRay16*>(&packet);
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-    rtcOccluded16(replay.lanes[p].valid, tracer.state->scene, rays, &how);
-#else
-    rtcOccluded16(replay.lanes[p].valid, tracer.state->scene, &how, rays);
-#endif
+    trace_blocked(tracer, replay.lanes[p].valid, packet, order);
   }
 }
 
 void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order) {
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-  RTCIntersectArguments how;
-  rtcInitIntersectArguments(&how);
-  how.flags = order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-#else
-  RTCIntersectContext how;
-  rtcInitIntersectContext(&how);
-  how.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                           : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-#endif
   for (size_t p = 0; p < replay.packets.size(); ++p) {
     HitPacket& packet = replay.packets[p];
     std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.ray.far_distance);
     std::fill_n(packet.geometry, kPacketSize, RTC_INVALID_GEOMETRY_ID);
-    auto* rays = reinterpret_cast<RTCRayHit16*>(&packet);
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-    rtcIntersect16(replay.lanes[p].valid, tracer.state->scene, rays, &how);
-#else
-    rtcIntersect16(replay.lanes[p].valid, tracer.state->scene, &how, rays);
-#endif
+    trace_nearest(tracer, replay.lanes[p].valid, packet, order);
   }
 }
 
