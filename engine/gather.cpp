@@ -19,11 +19,6 @@ namespace {
 constexpr double kBrightOverMean = 3;
 constexpr uint32_t kBlock = 16;  // receivers
 
-uint32_t valid_count(const HitTable& hits, size_t row) {
-  const auto first = hits.patch.begin() + static_cast<std::ptrdiff_t>(row * hits.ray_count);
-  return hits.ray_count - static_cast<uint32_t>(std::count(first, first + hits.ray_count, kHitBuried));
-}
-
 uint32_t find_element(const Elements& elements, uint32_t patch, uint32_t cell) {
   return find_leaf_between(elements.table, elements.first[patch], elements.first[patch + 1], cell);
 }
@@ -92,37 +87,36 @@ struct Place {
   float share_valid;
 };
 
-Place make_place(uint32_t row, const HitTable& hits, const ReceiverTable& receivers,
-                 const PatchTable& patches, const FaceFrameTable& frames) {
-  const uint32_t patch = receivers.patch[receivers.first[row]];
-  return {row,
-          patch,
-          receivers.first[row + 1] - receivers.first[row] > 1,
-          make_cell_frame(frames.triangle[patches.face[patch]], patches.cell[patch], patches.level[patch]),
-          receivers.centre[row],
-          receivers.normal[row],
-          hits.ray_count,
-          static_cast<float>(valid_count(hits, row)) / static_cast<float>(hits.ray_count)};
+Place make_place(uint32_t row, const Rows& rows) {
+  const ReceiverTable& receivers = rows.receivers;
+  const PatchTable& patches = rows.patches;
+  const uint32_t patch = receivers.patch[receivers.first[row]], ray_count = rows.hits.ray_count;
+  return {
+      row,
+      patch,
+      receivers.first[row + 1] - receivers.first[row] > 1,
+      make_cell_frame(rows.frames.triangle[patches.face[patch]], patches.cell[patch], patches.level[patch]),
+      receivers.centre[row],
+      receivers.normal[row],
+      ray_count,
+      static_cast<float>(rows.hits.valid_count(row)) / static_cast<float>(ray_count)};
 }
 
 // What a bounce reads; nothing in it changes while it runs.
 struct Bounce {
-  const HitTable& hits;
-  const ReceiverTable& receivers;
-  const PatchTable& patches;
+  const Rows& rows;
   const Elements& elements;
   std::span<const Rgb> sent;  // a row an element
   const SourceTable& sources;
-  const FaceTable& faces;
-  const FaceFrameTable& frames;
-  const Tracer& tracer;
-  uint64_t seed;
 };
 
 Origin find_origin_of(const Place& place, const Bounce& b, Vec2 sample) {
-  if (place.shared) return find_origin(b.receivers, place.row, b.patches, b.faces, b.frames, sample);
-  const uint32_t face = b.patches.face[place.patch];
-  return {face_point(b.frames, face, cell_sample(b.frames.triangle[face], place.cell, sample)), place.normal};
+  const Rows& rows = b.rows;
+  if (place.shared)
+    return find_origin(rows.receivers, place.row, rows.patches, rows.faces, rows.frames, sample);
+  const uint32_t face = rows.patches.face[place.patch];
+  return {face_point(rows.frames, face, cell_sample(rows.frames.triangle[face], place.cell, sample)),
+          place.normal};
 }
 
 // The kernel cos cos / (pi r2) between two points.
@@ -180,7 +174,8 @@ void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares&
         (static_cast<float>(index + k) + make_jitter(key, index + k).x) / static_cast<float>(count);
     while (shares.cumulative[source] < at) ++source;
     const AimedSample sample = make_aimed_sample(key, index + k);
-    const SourcePoint point = pick_source_point(sources, b.elements.table, b.frames, source, sample.target);
+    const SourcePoint point =
+        pick_source_point(sources, b.elements.table, b.rows.frames, source, sample.target);
     const Origin from = find_origin_of(place, b, sample.origin);
     const Vec3 origin = from.point + ray_offset(from.point) * from.normal;
     Vec3 target = point.place;
@@ -214,8 +209,9 @@ struct SourceViews {
 };
 
 uint64_t make_place_key(const Place& place, const Bounce& b, uint32_t purpose) {
+  const PatchTable& patches = b.rows.patches;
   const uint32_t patch = place.patch;
-  return make_row_key(b.seed, b.patches.face[patch], b.patches.cell[patch], b.patches.level[patch], purpose);
+  return make_row_key(b.rows.seed, patches.face[patch], patches.cell[patch], patches.level[patch], purpose);
 }
 
 uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& shares, const Bounce& b) {
@@ -228,7 +224,7 @@ uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& 
     const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active, RayOrder::kIncoherent);
+    const uint32_t blocked = find_blocked(b.rows.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       views.tried[packet.source[k]] += active >> k & 1u;
       views.reached[packet.source[k]] += (active & ~blocked) >> k & 1u;
@@ -260,12 +256,12 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
   for (uint32_t index = 0; index < place.rays; index += kPacketSize) {
     make_aimed_packet(packet, place, shares, b, key, index, place.rays);
     const uint32_t buried =
-        place.share_valid < 1 ? find_buried(b.tracer, b.faces, frame, packet.rays, 0xffff) : 0;
+        place.share_valid < 1 ? find_buried(b.rows.tracer, b.rows.faces, frame, packet.rays, 0xffff) : 0;
     usable_count += kPacketSize - static_cast<uint32_t>(std::popcount(buried));
     const uint32_t active = find_worthwhile(packet) & ~buried;
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.tracer, packet.rays, active, RayOrder::kIncoherent);
+    const uint32_t blocked = find_blocked(b.rows.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k)
       if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * b.sent[packet.element[k]];
   }
@@ -274,28 +270,28 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
 
 // The part of the row's own rays; hits on sources weigh as much as the aimed rays leave them.
 Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
-               std::span<const uint32_t> element_source) {
-  const HitTable& hits = b.hits;
+               std::span<const uint32_t> element_source, RowScratch& scratch) {
+  const RowHits hits = find_row(scratch, b.rows, place.row);
+  const FaceFrameTable& frames = b.rows.frames;
   Rgb sum(0);
-  for (size_t entry = place.row * size_t{hits.ray_count}; entry < (place.row + 1) * size_t{hits.ray_count};
-       ++entry) {
-    const uint32_t patch = hits.patch[entry];
+  for (size_t k = 0; k < place.rays; ++k) {
+    const uint32_t patch = hits.patch[k];
     if (patch >= kHitBuried) continue;
-    const uint32_t element = find_element(b.elements, patch, hits.cell[entry]);
+    const uint32_t element = find_element(b.elements, patch, hits.cell[k]);
     const uint32_t source = shares.any ? element_source[element] : kNone;
     float weight = 1;
     if (source != kNone && shares.share[source] > 0) {
-      const uint32_t face = b.patches.face[patch];
-      const CellFrame end = make_cell_frame(b.frames.triangle[face], hits.cell[entry], kLevelMax);
+      const uint32_t face = b.rows.patches.face[patch];
+      const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[k], kLevelMax);
       const Vec2 uv = end.origin + end.size * 0.5f;
-      const float kernel = form_factor_kernel(face_point(b.frames, face, uv) - place.centre, place.normal,
+      const float kernel = form_factor_kernel(face_point(frames, face, uv) - place.centre, place.normal,
                                               b.sources.normal[source]);
       weight = heuristic(
           kernel, shares.share[source] * find_density(b.sources, source, b.elements.table, element, b.sent));
     }
     sum += weight * b.sent[element];
   }
-  return sum / (place.share_valid * static_cast<float>(hits.ray_count));
+  return sum / (place.share_valid * static_cast<float>(place.rays));
 }
 
 // Blocks of neighbours that face one way share what they learn of the sources: on one face, or in one run of
@@ -324,28 +320,30 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 
 }  // namespace
 
-void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
-                     const AimTable& aims, const PatchTable& patches, const FaceTable& faces) {
+void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable& aims) {
+  const FaceTable& faces = rows.faces;
   std::vector<uint8_t> emits(faces.size());
   for (size_t f = 0; f < faces.size(); ++f) emits[f] = largest(faces.emission[f]) > 0;
-  for_rows(receivers.size(), 64, [&](size_t begin, size_t end) {
+  for_rows(rows.receivers.size(), 64, [&](size_t begin, size_t end) {
+    RowScratch scratch;
     for (size_t row = begin; row < end; ++row) {
       Rgb sum(0);
       // Polygons that share a receiver aim at the same lamps.
-      const uint32_t polygon = faces.polygon[patches.face[receivers.patch[receivers.first[row]]]];
-      for (size_t k = row * hits.ray_count; k < (row + 1) * hits.ray_count; ++k) {
-        if (hits.patch[k] >= kHitBuried) continue;
-        const uint32_t face = patches.face[hits.patch[k]];
+      const uint32_t own = rows.receivers.patch[rows.receivers.first[row]];
+      const uint32_t polygon = faces.polygon[rows.patches.face[own]];
+      for (const uint32_t patch : find_row(scratch, rows, row).patch) {
+        if (patch >= kHitBuried) continue;
+        const uint32_t face = rows.patches.face[patch];
         if (emits[face] && !is_aimed(aims, polygon, face)) sum += faces.emission[face];
       }
-      const uint32_t valid = valid_count(hits, row);
-      spread(irradiance, receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
+      const uint32_t valid = rows.hits.valid_count(row);
+      spread(irradiance, rows.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
     }
   });
 }
 
-void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const HitTable& hits,
-                    const ReceiverTable& receivers, std::span<const Rgb> sent) {
+void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const Rows& rows,
+                    std::span<const Rgb> sent) {
   // Four floats a patch load in one go; the last row stands for rays that met no patch.
   struct alignas(16) Wide {
     float channel[4];
@@ -353,24 +351,25 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
   std::vector<Wide> source(sent.size() + 1, Wide{});
   for (size_t p = 0; p < sent.size(); ++p) source[p] = {{sent[p].r, sent[p].g, sent[p].b, 0}};
   const auto no_patch = static_cast<uint32_t>(sent.size());
-  for_rows(receivers.size(), 64, [&](size_t begin, size_t end) {
+  for_rows(rows.receivers.size(), 64, [&](size_t begin, size_t end) {
+    RowScratch scratch;
     for (size_t row = begin; row < end; ++row) {
-      const uint32_t* hit = hits.patch.data() + row * hits.ray_count;
+      const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
       // Rays in two halves, a chequerboard over the strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the
       // other.
       Wide sum[2] = {};
-      for (uint32_t k = 0; k < hits.ray_count; k += 8)
+      for (size_t k = 0; k < hit.size(); k += 8)
         for (const auto& [even, odd] : {std::pair{0u, 1u}, {2u, 3u}, {5u, 4u}, {7u, 6u}}) {
           const Wide& a = source[std::min(hit[k + even], no_patch)];
           const Wide& b = source[std::min(hit[k + odd], no_patch)];
           for (int c = 0; c < 4; ++c) sum[0].channel[c] += a.channel[c], sum[1].channel[c] += b.channel[c];
         }
-      const auto valid = static_cast<float>(valid_count(hits, row));
+      const auto valid = static_cast<float>(rows.hits.valid_count(row));
       const Rgb halves[2] = {{sum[0].channel[0], sum[0].channel[1], sum[0].channel[2]},
                              {sum[1].channel[0], sum[1].channel[1], sum[1].channel[2]}};
-      spread(irradiance, receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
+      spread(irradiance, rows.receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
       if (!difference.empty())
-        spread(difference, receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
+        spread(difference, rows.receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
     }
   });
 }
@@ -449,40 +448,39 @@ SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, con
   return sources;
 }
 
-uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
-                         const PatchTable& patches, const Elements& elements, std::span<const Rgb> sent,
-                         const SourceTable& sources, const FaceTable& faces, const FaceFrameTable& frames,
-                         const Tracer& tracer, uint64_t seed) {
-  const Bounce b{hits, receivers, patches, elements, sent, sources, faces, frames, tracer, seed};
+uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elements& elements,
+                         std::span<const Rgb> sent, const SourceTable& sources) {
+  const Bounce b{rows, elements, sent, sources};
   std::vector<uint32_t> element_source(elements.table.size(), kNone);
   for (uint32_t s = 0; s < sources.size(); ++s)
     std::fill(element_source.begin() + sources.element_first[s],
               element_source.begin() + sources.element_last[s], s);
-  assert(hits.ray_count % kPacketSize == 0);
-  const std::vector<uint32_t> block_first = make_blocks(receivers, patches);
+  assert(rows.hits.ray_count % kPacketSize == 0);
+  const std::vector<uint32_t> block_first = make_blocks(rows.receivers, rows.patches);
   std::atomic<uint64_t> ray_count{0};
   for_rows(block_first.size() - 1, 2, [&](size_t begin, size_t end) {
     std::vector<AimShares> shares(kBlock);
     SourceViews views;
+    RowScratch scratch;
     uint64_t cast = 0;
     for (size_t block = begin; block < end; ++block) {
       views.clear(sources.size());
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
-        const Place place = make_place(row, hits, receivers, patches, frames);
+        const Place place = make_place(row, rows);
         AimShares& mine = shares[row - block_first[block]];
         find_shares(mine, sources, place.centre, place.normal);
         if (mine.any && place.share_valid > 0) cast += probe_sources(views, place, mine, b);
       }
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
-        const Place place = make_place(row, hits, receivers, patches, frames);
+        const Place place = make_place(row, rows);
         AimShares& mine = shares[row - block_first[block]];
         Rgb received(0);
         if (place.share_valid > 0) {
           if (mine.any) weigh_shares(mine, views);
-          received = gather_row(place, mine, b, element_source);
+          received = gather_row(place, mine, b, element_source, scratch);
           if (mine.any) received += gather_aimed(place, mine, b, cast);
         }
-        spread(irradiance, receivers, row, received);
+        spread(irradiance, rows.receivers, row, received);
       }
     }
     ray_count += cast;

@@ -9,14 +9,13 @@ namespace patchlight {
 
 // Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
 // meets and that is not aimed at. irradiance: a row a patch, overwritten.
-void gather_emission(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
-                     const AimTable& aims, const PatchTable& patches, const FaceTable& faces);
+void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable& aims);
 
 // Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send. difference: half the
 // difference of two independent halves of each row's rays, an estimate of the standard error; empty: not
 // wanted.
-void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const HitTable& hits,
-                    const ReceiverTable& receivers, std::span<const Rgb> sent);
+void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const Rows& rows,
+                    std::span<const Rgb> sent);
 
 // Bright places to aim at: nodes of the element trees that send more than three times the scene's mean, about
 // `count` of them, always the node of most flux split first.
@@ -32,9 +31,7 @@ struct Elements {
 // rays aimed at the sources, joined by multiple importance sampling with the power heuristic (Veach, Guibas:
 // Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995). Nothing is counted twice, and
 // rows carry what no source covers. Returns the number of rays.
-uint64_t gather_elements(std::span<Rgb> irradiance, const HitTable& hits, const ReceiverTable& receivers,
-                         const PatchTable& patches, const Elements& elements, std::span<const Rgb> sent,
-                         const SourceTable& sources, const FaceTable& faces, const FaceFrameTable& frames,
-                         const Tracer& tracer, uint64_t seed);
+uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elements& elements,
+                         std::span<const Rgb> sent, const SourceTable& sources);
 
 }  // namespace patchlight

@@ -67,14 +67,9 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
   }
   const std::vector<Rgb> irradiance = element_irradiance(s);
   for (size_t p = 0; p < s.patches.size(); ++p) {
-    uint32_t nothing = 0, back = 0, buried = 0;
     const size_t receiver = s.receivers.receiver_of[p];
-    for (size_t k = receiver * s.hits.ray_count; k < (receiver + 1) * s.hits.ray_count; ++k) {
-      nothing += s.hits.patch[k] == kHitNothing;
-      back += s.hits.patch[k] == kHitBack;
-      buried += s.hits.patch[k] == kHitBuried;
-    }
-    const double valid = s.hits.ray_count - buried;
+    const double nothing = s.hits.nothing[receiver], back = s.hits.back[receiver];
+    const double valid = s.hits.valid_count(receiver);
     const DRgb rho(faces.reflectance[s.patches.face[p]]);
     DRgb received(0), unshot(0);
     for (uint32_t row = s.element_first[p]; row < s.element_first[p + 1]; ++row) {

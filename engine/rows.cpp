@@ -2,7 +2,6 @@
 #include "rows.h"
 
 #include "parallel.h"
-#include "quadtree.h"
 
 #include <algorithm>
 #include <atomic>
@@ -194,63 +193,103 @@ uint32_t find_buried(const Tracer& tracer, const FaceTable& faces, const Frame& 
   return active;
 }
 
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& receivers,
-                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays,
+namespace {
+
+struct RowCounts {
+  uint32_t nothing = 0, back = 0, buried = 0;
+};
+
+// Where the rays of one receiver end; patch and cell: grid.ray_count() entries each, overwritten.
+RowCounts cast_row(std::span<uint32_t> patch, std::span<uint32_t> cell, const LeafIndex& index,
+                   const ReceiverTable& receivers, size_t receiver, const PatchTable& patches,
+                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, RowGrid grid,
                    uint64_t seed) {
-  const RowGrid grid = make_row_grid(rays);
-  hits.ray_count = grid.ray_count();
-  hits.patch.resize(receivers.size() * hits.ray_count);
-  hits.cell.resize(receivers.size() * hits.ray_count);
-  const LeafIndex index = make_leaf_index(patches);
-  for_rows(receivers.size(), 16, [&](size_t begin, size_t end) {
-    HitPacket packet;
-    for (size_t row = begin; row < end; ++row) {
-      const std::span members =
-          std::span(receivers.patch)
-              .subspan(receivers.first[row], receivers.first[row + 1] - receivers.first[row]);
-      const uint32_t patch = members[0], face = patches.face[patch];
-      const Frame frame = make_frame(receivers.normal[row]);
-      const uint64_t key = make_row_key(seed, face, patches.cell[patch], patches.level[patch], kRowHits);
-      uint32_t buried_count = 0;
-      for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-        if (members.size() == 1)
-          make_row_packet(packet, frames, frame, face, patches.cell[patch], patches.level[patch], key, grid,
-                          tile);
-        else
-          make_shared_packet(packet, receivers, static_cast<uint32_t>(row), patches, faces, frames, key, grid,
-                             tile);
-        find_hits(tracer, packet, 0xffff);
-        const size_t first = row * hits.ray_count + tile * kPacketSize;
-        uint32_t back = 0;
-        for (uint32_t k = 0; k < kPacketSize; ++k) {
-          const uint32_t seen = packet.face[k];
-          hits.patch[first + k] = kHitNothing;
-          hits.cell[first + k] = 0;
-          if (seen == kNone) continue;
-          const RayPacket& r = packet.ray;
-          const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-          if (dot(direction, faces.normal[seen]) >= 0) {
-            hits.patch[first + k] = kHitBack;
-            back |= 1u << k;
-            continue;
-          }
-          const Vec3 point =
-              Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) + r.far_distance[k] * direction;
-          const uint32_t cell = find_cell(frames.triangle[seen], find_face_parameters(frames, seen, point));
-          hits.patch[first + k] = find_leaf(patches, index, seen, cell);
-          hits.cell[first + k] = cell;
-        }
-        if (back) {
-          const uint32_t buried = find_buried(tracer, faces, frame, packet.ray, back);
-          for (uint32_t k = 0; k < kPacketSize; ++k)
-            if (buried >> k & 1u) hits.patch[first + k] = kHitBuried, ++buried_count;
-        }
+  const bool shared = receivers.first[receiver + 1] - receivers.first[receiver] > 1;
+  const uint32_t own = receivers.patch[receivers.first[receiver]], face = patches.face[own];
+  const Frame frame = make_frame(receivers.normal[receiver]);
+  const uint64_t key = make_row_key(seed, face, patches.cell[own], patches.level[own], kRowHits);
+  RowCounts counts;
+  HitPacket packet;
+  for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
+    if (shared)
+      make_shared_packet(packet, receivers, static_cast<uint32_t>(receiver), patches, faces, frames, key,
+                         grid, tile);
+    else
+      make_row_packet(packet, frames, frame, face, patches.cell[own], patches.level[own], key, grid, tile);
+    find_hits(tracer, packet, 0xffff);
+    const size_t first = tile * kPacketSize;
+    uint32_t back = 0;
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      const uint32_t seen = packet.face[k];
+      patch[first + k] = kHitNothing;
+      cell[first + k] = 0;
+      if (seen == kNone) {
+        ++counts.nothing;
+        continue;
       }
-      const float exposed = 1 - static_cast<float>(buried_count) / static_cast<float>(hits.ray_count);
-      for (const uint32_t member : members) patches.exposed[member] = exposed;
+      const RayPacket& r = packet.ray;
+      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
+      if (dot(direction, faces.normal[seen]) >= 0) {
+        patch[first + k] = kHitBack;
+        back |= 1u << k;
+        continue;
+      }
+      const Vec3 point = Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) + r.far_distance[k] * direction;
+      cell[first + k] = find_cell(frames.triangle[seen], find_face_parameters(frames, seen, point));
+      patch[first + k] = find_leaf(patches, index, seen, cell[first + k]);
+    }
+    if (!back) continue;
+    const uint32_t buried = find_buried(tracer, faces, frame, packet.ray, back);
+    for (uint32_t k = 0; k < kPacketSize; ++k)
+      if (buried >> k & 1u) patch[first + k] = kHitBuried;
+    counts.buried += static_cast<uint32_t>(std::popcount(buried));
+    counts.back += static_cast<uint32_t>(std::popcount(back & ~buried));
+  }
+  return counts;
+}
+
+}  // namespace
+
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, const LeafIndex& index,
+                   const ReceiverTable& receivers, const FaceTable& faces, const FaceFrameTable& frames,
+                   const Tracer& tracer, const RowSettings& settings) {
+  const RowGrid grid = make_row_grid(settings.rays);
+  const size_t count = receivers.size();
+  hits.ray_count = grid.ray_count();
+  for (std::vector<uint32_t>* column : {&hits.nothing, &hits.back, &hits.buried}) column->resize(count);
+  hits.patch.resize(settings.keep ? count * hits.ray_count : 0);
+  hits.cell.resize(hits.patch.size());
+  for_rows(count, 16, [&](size_t begin, size_t end) {
+    RowScratch scratch;
+    if (!settings.keep) scratch.patch.resize(hits.ray_count), scratch.cell.resize(hits.ray_count);
+    for (size_t row = begin; row < end; ++row) {
+      const size_t first = row * hits.ray_count;
+      const auto [nothing, back, buried] =
+          settings.keep ? cast_row(std::span(hits.patch).subspan(first, hits.ray_count),
+                                   std::span(hits.cell).subspan(first, hits.ray_count), index, receivers, row,
+                                   patches, faces, frames, tracer, grid, settings.seed)
+                        : cast_row(scratch.patch, scratch.cell, index, receivers, row, patches, faces, frames,
+                                   tracer, grid, settings.seed);
+      hits.nothing[row] = nothing, hits.back[row] = back, hits.buried[row] = buried;
+      const float exposed = 1 - static_cast<float>(buried) / static_cast<float>(hits.ray_count);
+      for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k)
+        patches.exposed[receivers.patch[k]] = exposed;
     }
   });
-  return uint64_t{hits.ray_count} * receivers.size();
+  return uint64_t{hits.ray_count} * count;
+}
+
+RowHits find_row(RowScratch& scratch, const Rows& rows, size_t receiver) {
+  const uint32_t ray_count = rows.hits.ray_count;
+  if (!rows.hits.patch.empty()) {
+    const size_t first = receiver * ray_count;
+    return {std::span(rows.hits.patch).subspan(first, ray_count),
+            std::span(rows.hits.cell).subspan(first, ray_count)};
+  }
+  scratch.patch.resize(ray_count), scratch.cell.resize(ray_count);
+  cast_row(scratch.patch, scratch.cell, rows.index, rows.receivers, receiver, rows.patches, rows.faces,
+           rows.frames, rows.tracer, rows.grid, rows.seed);
+  return {scratch.patch, scratch.cell};
 }
 
 PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,

@@ -5,7 +5,7 @@
 // so a row is never scaled to sum to 1 (Malley: A Shading Method for Computer Generated Images, 1988).
 #pragma once
 
-#include "cell.h"
+#include "quadtree.h"
 #include "sampling.h"
 #include "tracer.h"
 
@@ -49,11 +49,41 @@ struct Origin {
 Origin find_origin(const ReceiverTable& receivers, uint32_t receiver, const PatchTable& patches,
                    const FaceTable& faces, const FaceFrameTable& frames, Vec2 sample);
 
+struct RowSettings {
+  uint32_t rays = 256;  // rays a row; more: less noise, more time
+  uint64_t seed = 1;
+  bool keep = true;  // false: only the counts of each row are kept, and rows are cast again when asked for
+};
+
 // Casts the rows of all receivers. Returns the number of rays cast and writes the exposed share of each
 // patch.
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const ReceiverTable& receivers,
-                   const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t rays,
-                   uint64_t seed);
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, const LeafIndex& index,
+                   const ReceiverTable& receivers, const FaceTable& faces, const FaceFrameTable& frames,
+                   const Tracer& tracer, const RowSettings& settings);
+
+// The rows of all receivers, kept or not: what a gather reads.
+struct Rows {
+  const HitTable& hits;
+  const LeafIndex& index;  // of the patches
+  const ReceiverTable& receivers;
+  const PatchTable& patches;
+  const FaceTable& faces;
+  const FaceFrameTable& frames;
+  const Tracer& tracer;
+  RowGrid grid;
+  uint64_t seed;
+};
+
+// One row: the columns of HitTable for one receiver.
+struct RowHits {
+  std::span<const uint32_t> patch, cell;
+};
+struct RowScratch {
+  std::vector<uint32_t> patch, cell;
+};
+// The row of a receiver: out of the table, or cast once more into `scratch`, with the same rays and so the
+// same hits. Valid until the next call with this scratch.
+RowHits find_row(RowScratch& scratch, const Rows& rows, size_t receiver);
 
 // Of the square root of the scene's area: a patch is never larger, and not split below the smallest.
 constexpr float kPatchEdgeMax = 0.06f;

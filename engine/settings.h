@@ -14,6 +14,7 @@ struct SolverSettings {
   uint64_t patch_count_max = 200000;  // the budget of patches (elements)
   uint32_t rays = 256;                // rays a row; more: less noise, more time
   uint64_t seed = 1;                  // another seed, other samples
+  bool keep_rows = true;              // false: form factors are computed again in every pass; same bits
 };
 
 }  // namespace patchlight

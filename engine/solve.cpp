@@ -187,15 +187,15 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable
 
 // All bounces on the patches alone, from the elements' direct light so far: what refinement and exposure go
 // by.
-void find_coarse(Solution& s, const FaceTable& faces) {
+void find_coarse(Solution& s, const Rows& rows, const FaceTable& faces) {
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
   std::vector<Rgb> sent(count), error(count, Rgb(0)), difference(count), next(count);
-  gather_emission(next, s.hits, s.receivers, s.aims, s.patches, faces);
+  gather_emission(next, rows, s.aims);
   s.coarse = next;
   for (size_t p = 0; p < count; ++p) sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + next[p]);
   for (uint32_t pass = 2; pass <= kCoarsePassesMax; ++pass) {
-    gather_patches(next, difference, s.hits, s.receivers, sent);
+    gather_patches(next, difference, rows, sent);
     double added = 0, all = 0;
     for (size_t p = 0; p < count; ++p) {
       s.coarse[p] += next[p];
@@ -313,8 +313,9 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
                            settings.seed, ray_count);
   s.receivers = make_receivers(s.patches, faces, s.frames, tracer, settings.seed, ray_count);
   s.seconds.split += watch.read();
-  ray_count +=
-      cast_rows(s.hits, s.patches, s.receivers, faces, s.frames, tracer, settings.rays, settings.seed);
+  s.patch_index = make_leaf_index(s.patches);
+  ray_count += cast_rows(s.hits, s.patches, s.patch_index, s.receivers, faces, s.frames, tracer,
+                         {settings.rays, settings.seed, settings.keep_rows});
   s.seconds.trace += watch.read();
   s.patch_vertices = make_vertices(s.patches, s.frames, s.joints);
   s.elements =
@@ -331,13 +332,20 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.fresh = all_rows(count);
   find_direct_of(s, s.fresh, faces, tracer, kStartRays, settings);
   s.seconds.trace += watch.read();
-  find_coarse(s, faces);
+  find_coarse(s, get_rows(s, faces, tracer, settings), faces);
   find_coarse_radiosity(s, s.fresh, faces);
   find_mean_radiosity(s, faces);
   s.seconds.solve += watch.read();
   s.transport_ray_count = ray_count;
   s.rounds.push_back({1, count, 0, ray_count + s.direct_ray_count, whole.read()});
   return s;
+}
+
+Rows get_rows(const Solution& s, const FaceTable& faces, const Tracer& tracer,
+              const SolverSettings& settings) {
+  return {s.hits,       s.patch_index, s.receivers, s.patches,
+          faces,        s.frames,      tracer,      make_row_grid(settings.rays),
+          settings.seed};
 }
 
 bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {
@@ -411,21 +419,21 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
                           const SolverSettings& settings) {
   Stopwatch watch;
   if (!s.frozen) freeze(s, faces, tracer, settings);
+  const Rows rows = get_rows(s, faces, tracer, settings);
   PassReport report;
   report.pass = static_cast<uint32_t>(s.passes.size()) + 1;
   if (report.pass == 1) {
-    gather_emission(s.irradiance_added, s.hits, s.receivers, s.aims, s.patches, faces);
+    gather_emission(s.irradiance_added, rows, s.aims);
     report.ray_count = s.direct_ray_count;
   } else if (report.pass == 2) {
     const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
     const uint64_t aimed =
-        gather_elements(s.irradiance_added, s.hits, s.receivers, s.patches, {s.elements, s.element_first},
-                        s.elements.unshot, sources, faces, s.frames, tracer, settings.seed);
+        gather_elements(s.irradiance_added, rows, {s.elements, s.element_first}, s.elements.unshot, sources);
     s.transport_ray_count += aimed;
     report.ray_count = aimed + uint64_t{s.hits.ray_count} * s.receivers.size();
   } else {
     const std::vector<Rgb> sent = s.patches.unshot;
-    gather_patches(s.irradiance_added, {}, s.hits, s.receivers, sent);
+    gather_patches(s.irradiance_added, {}, rows, sent);
   }
   for (size_t p = 0; p < s.patches.size(); ++p) {
     s.irradiance[p] += s.irradiance_added[p];
@@ -497,7 +505,7 @@ uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) 
   const uint64_t start = count_starting_patches(faces, settings);
   const uint64_t elements = std::max(start, settings.patch_count_max);
   const uint64_t patches = count_transport_patches(faces, settings);
-  const uint64_t row_bytes = 8 * uint64_t{make_row_grid(settings.rays).ray_count()};
+  const uint64_t row_bytes = settings.keep_rows ? 8 * uint64_t{make_row_grid(settings.rays).ray_count()} : 0;
   return kFaceBytes * faces.size() + kElementBytes * elements + (kPatchBytes + row_bytes) * patches;
 }
 
@@ -516,8 +524,9 @@ uint64_t count_bytes(const Solution& s) {
                s.links.corner, s.joints.edge, s.joints.corner, s.element_first, s.element_patch,
                s.aims.list_of, s.aims.list_first, s.aims.lamp, s.receivers.first, s.receivers.patch,
                s.receivers.area_until, s.receivers.centre, s.receivers.normal, s.receivers.receiver_of,
-               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.direct,
-               s.direct_error, s.irradiance, s.irradiance_added, s.coarse, s.coarse_error, s.fresh) +
+               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.hits.nothing,
+               s.hits.back, s.hits.buried, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
+               s.coarse, s.coarse_error, s.fresh) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
          vertex_bytes(s.element_vertices);
 }

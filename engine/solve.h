@@ -8,8 +8,8 @@
 // The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints.
 #pragma once
 
+#include "rows.h"
 #include "settings.h"
-#include "tables.h"
 #include "tracer.h"
 
 #include <cstdint>
@@ -54,7 +54,8 @@ struct Solution {
   VertexTable patch_vertices;           // of the patches; of the elements once the mesh is frozen
   VertexTable element_vertices;
   AimTable aims;
-  LampViewTable views;                // a row an element
+  LampViewTable views;  // a row an element
+  LeafIndex patch_index;
   ReceiverTable receivers;            // of the patches
   HitTable hits;                      // a row of rays a receiver
   std::vector<Rgb> direct;            // a row an element: irradiance from the lamps aimed at, W/m2
@@ -105,6 +106,10 @@ std::vector<Rgb> element_irradiance(const Solution& solution);
 // Where the power went, after the passes so far.
 PowerLedger find_power_ledger(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
                               const SolverSettings& settings);
+
+// The rows of the patches, for kernels that gather.
+Rows get_rows(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
+              const SolverSettings& settings);
 
 // 64-bit hash of all element radiosities: equal runs have equal hashes.
 uint64_t find_solution_hash(const Solution& solution);

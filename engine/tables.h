@@ -114,12 +114,16 @@ struct ReceiverTable {
   size_t size() const { return centre.size(); }
 };
 
-// Where the row rays of each receiver ended: a row of ray_count entries a receiver, fixed geometry, kept for
-// all passes.
+// Where the row rays of each receiver ended: ray_count entries a receiver, for geometry does not change.
+// Where that does not fit in memory the first two columns are empty, and rows are cast again when asked for
+// (rows.h).
 struct HitTable {
-  std::vector<uint32_t> patch;  // the patch hit, or kHitNothing, or kHitBack
-  std::vector<uint32_t> cell;   // where on the patch's face: a cell of level kLevelMax
-  uint32_t ray_count = 0;       // rays a row
+  std::vector<uint32_t> patch;                  // the patch hit, or kHitNothing, kHitBack, kHitBuried
+  std::vector<uint32_t> cell;                   // where on the patch's face: a cell of level kLevelMax
+  std::vector<uint32_t> nothing, back, buried;  // a row a receiver: how many of its rays ended so
+  uint32_t ray_count = 0;                       // rays a row
+  uint32_t valid_count(size_t row) const { return ray_count - buried[row]; }
+  size_t size() const { return buried.size(); }
 };
 constexpr uint32_t kHitNothing = ~uint32_t{0};    // the ray left the scene
 constexpr uint32_t kHitBack = kHitNothing - 1;    // it met a back side

@@ -147,6 +147,11 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_value(app, "--max-patches", "N", "the budget of patches", [&](const std::string& text) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
   });
+  add_value(app, "--form-factors", "HOW",
+            "cached, or recompute: less memory, more time, the same result; as memory allows unless given",
+            [&](const std::string& text) {
+              options.keep_rows = parse_choice("--form-factors", text, {"cached", "recompute"}) == 0;
+            });
   add_switch(app, "--quiet", options.quiet, "no progress and no summary");
   add_switch(app, "--json", options.json,
              "messages as a JSON list on standard output, and nothing else there");

@@ -43,11 +43,7 @@ std::vector<double> find_row_sums(const Solution& solution, const FaceTable& fac
   if (solution.receivers.receiver_of.size() == patches.size())
     for (size_t patch = 0; patch < patches.size(); ++patch) {
       const size_t row = solution.receivers.receiver_of[patch];
-      size_t cast = 0, hit = 0;
-      for (size_t ray = row * hits.ray_count; ray < (row + 1) * hits.ray_count; ++ray) {
-        cast += hits.patch[ray] != kHitBuried;
-        hit += hits.patch[ray] != kHitBuried && hits.patch[ray] != kHitNothing;
-      }
+      const uint32_t cast = hits.valid_count(row), hit = cast - hits.nothing[row];
       if (cast == 0) continue;
       const uint32_t polygon = faces.polygon[patches.face[patch]];
       area[polygon] += patches.area[patch];
@@ -80,7 +76,8 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
   // The coarse tree that carries light between surfaces, and the rows of form factors that its patches share.
   json["transport"] = {{"patches", solution.patches.size()},
                        {"rows", solution.receivers.size()},
-                       {"rays_per_row", solution.hits.ray_count}};
+                       {"rays_per_row", solution.hits.ray_count},
+                       {"form_factors", scene.solver.keep_rows ? "cached" : "recompute"}};
   json["threads"] = report.thread_count;
   if (report.solution_hash) json["solution_hash"] = fmt::format("{:016x}", *report.solution_hash);
   if (report.exposure_ev) json["exposure"] = *report.exposure_ev;

@@ -47,6 +47,7 @@ struct Options {
   std::optional<uint32_t> threads;
   std::optional<uint64_t> seed;
   std::optional<uint64_t> max_patches;
+  std::optional<bool> keep_rows;  // form factors cached or computed again; empty: as memory allows
   std::vector<std::string> formats = {"png"};
   std::string report;  // empty: beside the pictures
   bool quiet = false;

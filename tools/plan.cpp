@@ -104,6 +104,8 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
+  scene.solver.keep_rows =
+      options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= find_memory_available();
   return plan;
 }
 

@@ -22,7 +22,13 @@ struct Room {
   std::vector<Rgb> sent;
   uint64_t seed;
   ReceiverTable receivers = {};
+  LeafIndex index = {};
 };
+
+Rows get_rows(const Room& room, const Tracer& tracer) {
+  return {room.hits,   room.index, room.receivers,     room.patches, room.faces,
+          room.frames, tracer,     make_row_grid(256), room.seed};
+}
 
 Room make_room(const Tracer& tracer, const FaceTable& faces, uint64_t seed) {
   Room room{faces, {}, {}, {}, {}, {}, {}, {}, seed};
@@ -31,7 +37,8 @@ Room make_room(const Tracer& tracer, const FaceTable& faces, uint64_t seed) {
   room.patches = make_leaves(faces, room.frames, [](uint32_t) { return 3u; });
   room.elements = make_leaves(faces, room.frames, [](uint32_t) { return 5u; });
   room.receivers = make_single_receivers(room.patches, faces, room.frames);
-  cast_rows(room.hits, room.patches, room.receivers, faces, room.frames, tracer, 256, seed);
+  room.index = make_leaf_index(room.patches);
+  cast_rows(room.hits, room.patches, room.index, room.receivers, faces, room.frames, tracer, {256, seed});
   room.first = find_union_ranges(room.patches, room.elements);
   room.sent.resize(room.elements.size());
   for (uint32_t row = 0; row < room.elements.size(); ++row) {
@@ -55,8 +62,7 @@ std::vector<Rgb> gather(const Room& room, const Tracer& tracer, const std::vecto
   const SourceTable sources =
       source_count ? make_sources(room.elements, room.faces, room.frames, sent, source_count) : SourceTable{};
   std::vector<Rgb> irradiance(room.patches.size());
-  gather_elements(irradiance, room.hits, room.receivers, room.patches, {room.elements, room.first}, sent,
-                  sources, room.faces, room.frames, tracer, room.seed);
+  gather_elements(irradiance, get_rows(room, tracer), {room.elements, room.first}, sent, sources);
   return irradiance;
 }
 
@@ -68,7 +74,7 @@ TEST_CASE("gather: where all send alike, every patch of a closed room receives e
   const Room room = make_room(tracer, faces, 1);
   const std::vector<Rgb> patch_sent(room.patches.size(), Rgb(3, 1, 0.25f));
   std::vector<Rgb> irradiance(room.patches.size()), difference(room.patches.size());
-  gather_patches(irradiance, difference, room.hits, room.receivers, patch_sent);
+  gather_patches(irradiance, difference, get_rows(room, tracer), patch_sent);
   // Sums of 256 equal floats.
   for (const Rgb& value : irradiance) CHECK(distance(value, Rgb(3, 1, 0.25f)) <= 1e-4f);
   for (const Rgb& value : difference) CHECK(largest(value) <= 1e-4f);
@@ -124,19 +130,23 @@ TEST_CASE("gather: rays that meet nothing or a back side bring nothing, buried o
     hits.patch[16 + k] = k % 2 ? kHitBuried : 1;
     hits.patch[32 + k] = kHitBuried;
   }
+  hits.nothing = {4, 0, 0}, hits.back = {4, 0, 0}, hits.buried = {0, 8, 16};
   const std::vector<Rgb> sent = {Rgb(100), Rgb(7), Rgb(1, 2, 3)};
   std::vector<Rgb> irradiance(3), difference(3);
   ReceiverTable receivers;
   receivers.first = {0, 1, 2, 3};
   receivers.patch = receivers.receiver_of = {0, 1, 2};
   receivers.centre.resize(3);
-  gather_patches(irradiance, difference, hits, receivers, sent);
+  const FaceTable faces;
+  const Tracer tracer = make_tracer(faces);
+  const Rows rows{hits, {}, receivers, {}, faces, {}, tracer, {}, 1};
+  gather_patches(irradiance, difference, rows, sent);
   CHECK(irradiance[0] == Rgb(0.5f, 1, 1.5f));
   CHECK(irradiance[1] == Rgb(7));
   CHECK(irradiance[2] == Rgb(0));
   CHECK(difference[2] == Rgb(0));
   std::vector<Rgb> again(3);
-  gather_patches(again, {}, hits, receivers, sent);
+  gather_patches(again, {}, rows, sent);
   CHECK(again == irradiance);
 }
 
@@ -148,8 +158,8 @@ TEST_CASE("gather: the stated difference is about the standard error of the row"
   std::vector<Rgb> sent(a.patches.size());
   for (uint32_t row = 0; row < sent.size(); ++row) sent[row] = Rgb(row % 4 == 0 ? 1.0f : 0.0f);
   std::vector<Rgb> first(sent.size()), second(sent.size()), difference(sent.size());
-  gather_patches(second, {}, b.hits, b.receivers, sent);
-  gather_patches(first, difference, a.hits, a.receivers, sent);
+  gather_patches(second, {}, get_rows(b, tracer), sent);
+  gather_patches(first, difference, get_rows(a, tracer), sent);
   double squares = 0, stated = 0;
   for (size_t row = 0; row < sent.size(); ++row) {
     squares += std::pow(first[row].g - second[row].g, 2) / 2;
@@ -175,9 +185,9 @@ TEST_CASE("gather: emission that a polygon aims at is not counted again by its r
     ceiling.list_first[polygon + 1] = polygon + 1, both.list_first[polygon + 1] = 2 * polygon + 2;
   }
   std::vector<Rgb> all(room.patches.size()), left(all), nothing(all);
-  gather_emission(all, room.hits, room.receivers, none, room.patches, faces);
-  gather_emission(left, room.hits, room.receivers, ceiling, room.patches, faces);
-  gather_emission(nothing, room.hits, room.receivers, both, room.patches, faces);
+  gather_emission(all, get_rows(room, tracer), none);
+  gather_emission(left, get_rows(room, tracer), ceiling);
+  gather_emission(nothing, get_rows(room, tracer), both);
   double floor_all = 0, floor_left = 0;
   const uint32_t count = room.patches.face_first[1];
   for (uint32_t row = 0; row < count; ++row)

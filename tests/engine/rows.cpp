@@ -6,7 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
+#include <numeric>
 
 using namespace patchlight;
 
@@ -34,19 +36,19 @@ DVec2 disk_to_square(DVec2 p) {
   return (DVec2(b * scale * std::atan(p.x / p.y), b) + 1.0) / 2.0;
 }
 
-struct Rows {
+struct Cast {
   FaceFrameTable frames;
   PatchTable patches;
   HitTable hits;
 };
 
-Rows cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t seed) {
-  Rows rows{make_face_frames(faces), {}, {}};
+Cast cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t seed) {
+  Cast rows{make_face_frames(faces), {}, {}};
   rows.patches = make_leaves(faces, rows.frames, [&](uint32_t) { return level; });
   const Tracer tracer = make_tracer(faces);
-  const uint64_t count =
-      cast_rows(rows.hits, rows.patches, make_single_receivers(rows.patches, faces, rows.frames), faces,
-                rows.frames, tracer, rays, seed);
+  const uint64_t count = cast_rows(rows.hits, rows.patches, make_leaf_index(rows.patches),
+                                   make_single_receivers(rows.patches, faces, rows.frames), faces,
+                                   rows.frames, tracer, {rays, seed});
   CHECK(count == uint64_t{rows.hits.ray_count} * rows.patches.size());
   return rows;
 }
@@ -134,7 +136,7 @@ TEST_CASE("rows: in a closed room every ray meets a lit side, on the patch that 
     FaceTable faces = make_unit_room();
     add_box_outward(faces, {0.3f, 0.2f, 0.3f}, {0.6f, 0.5f, 0.7f}, make_surface(0, 0.5f));
     if (moved) map_scene(faces, 0.4f, {0.3f, -0.7f, 0.2f});
-    const Rows rows = cast_all(faces, 2, 256, 3);
+    const Cast rows = cast_all(faces, 2, 256, 3);
     for (size_t k = 0; k < rows.hits.patch.size(); ++k) {
       REQUIRE(rows.hits.patch[k] < rows.patches.size());
       REQUIRE(cell_ancestor(rows.hits.cell[k], 2) == rows.patches.cell[rows.hits.patch[k]]);
@@ -146,7 +148,7 @@ TEST_CASE("rows: in a closed room every ray meets a lit side, on the patch that 
 TEST_CASE("rows: a room of triangles and bent quads keeps all its rays") {
   FaceTable faces;
   add_sphere(faces, Vec3(0), 0.3f, 8, 11, std::numbers::pi, true, [](uint32_t) { return Surface{}; });
-  const Rows rows = cast_all(faces, 1, 256, 5);
+  const Cast rows = cast_all(faces, 1, 256, 5);
   size_t lost = 0;
   for (const uint32_t patch : rows.hits.patch) lost += patch >= rows.patches.size();
   // Where facets meet at less than 180 degrees, an origin half a millionth off its own facet can lie behind
@@ -155,7 +157,7 @@ TEST_CASE("rows: a room of triangles and bent quads keeps all its rays") {
 }
 
 TEST_CASE("rows: form factors of the cube, floor to ceiling and floor to wall") {
-  const Rows rows = cast_all(make_unit_room(), 3, 256, 1);
+  const Cast rows = cast_all(make_unit_room(), 3, 256, 1);
   std::array<double, 6> count{};
   const uint32_t floor_rows = rows.patches.face_first[1];
   for (size_t k = 0; k < size_t{floor_rows} * rows.hits.ray_count; ++k)
@@ -172,7 +174,7 @@ TEST_CASE("rows: rays that leave the scene stay in the count, back sides stop th
   FaceTable faces;
   add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {});
   add_quad(faces, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {});  // looks up: its back is towards the first
-  const Rows rows = cast_all(faces, 2, 256, 1);
+  const Cast rows = cast_all(faces, 2, 256, 1);
   size_t back = 0, nothing = 0;
   const size_t n = size_t{rows.patches.face_first[1]} * rows.hits.ray_count;
   for (size_t k = 0; k < n; ++k) {
@@ -190,7 +192,7 @@ TEST_CASE("rows: what lies inside a solid is buried, what lies outside is not") 
   FaceTable faces = make_unit_room();
   // The box stands on the floor: on its grid of eighths it covers patches whole.
   add_box_outward(faces, {0.25f, -0.1f, 0.25f}, {0.75f, 0.5f, 0.5f}, {});
-  const Rows rows = cast_all(faces, 3, 256, 1);
+  const Cast rows = cast_all(faces, 3, 256, 1);
   for (uint32_t row = 0; row < rows.patches.face_first[1]; ++row) {
     const Vec3 c = cell_centre(rows.frames, 0, rows.patches.cell[row], 3);
     const bool inside = c.x > 0.25f && c.x < 0.75f && c.z > 0.25f && c.z < 0.5f;
@@ -202,7 +204,7 @@ TEST_CASE("rows: what lies inside a solid is buried, what lies outside is not") 
   // the box's edge may fall either way.
   FaceTable shifted = make_unit_room();
   add_box_outward(shifted, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, {});
-  const Rows partly = cast_all(shifted, 2, 256, 1);
+  const Cast partly = cast_all(shifted, 2, 256, 1);
   const uint32_t corner = find_leaf(partly.patches, 0, find_cell(false, {0.3f, 0.3f}));
   CHECK(std::abs(1 - partly.patches.exposed[corner] - 0.2f * 0.2f / (0.25f * 0.25f)) <= 32 / 256.0f);
 }
@@ -222,12 +224,49 @@ TEST_CASE("rows: points are found buried by what they see in all directions") {
 
 TEST_CASE("rows: one seed gives one set of rows, another seed another") {
   const FaceTable faces = make_unit_room();
-  const Rows a = cast_all(faces, 2, 64, 1), b = cast_all(faces, 2, 64, 1), c = cast_all(faces, 2, 64, 2);
+  const Cast a = cast_all(faces, 2, 64, 1), b = cast_all(faces, 2, 64, 1), c = cast_all(faces, 2, 64, 2);
   CHECK(a.hits.cell == b.hits.cell);
   CHECK(a.hits.patch == b.hits.patch);
   size_t same = 0;
   for (size_t k = 0; k < a.hits.cell.size(); ++k) same += a.hits.cell[k] == c.hits.cell[k];
   CHECK(same < a.hits.cell.size() / 100);
+}
+
+TEST_CASE("rows: cast again they are the rows that were kept, and so are their counts") {
+  FaceTable faces = make_unit_room();
+  // A window and a pillar: some rays end nowhere, some on backs, some start buried.
+  faces.corners[kLeft] = {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0.5f, 1), Vec3(0, 0.5f, 0)};
+  add_box_outward(faces, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, make_surface(0, 0.5f));
+  const FaceFrameTable frames = make_face_frames(faces);
+  const Tracer tracer = make_tracer(faces);
+  PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
+  const ReceiverTable receivers = make_single_receivers(patches, faces, frames);
+  const LeafIndex index = make_leaf_index(patches);
+  HitTable kept, counted;
+  cast_rows(kept, patches, index, receivers, faces, frames, tracer, {100, 7, true});
+  const std::vector<float> exposed = patches.exposed;
+  CHECK(cast_rows(counted, patches, index, receivers, faces, frames, tracer, {100, 7, false}) ==
+        uint64_t{kept.ray_count} * receivers.size());
+  CHECK(counted.patch.empty());
+  CHECK(counted.nothing == kept.nothing);
+  CHECK(counted.back == kept.back);
+  CHECK(counted.buried == kept.buried);
+  CHECK(patches.exposed == exposed);
+  const auto total = [](const std::vector<uint32_t>& column) {
+    return std::accumulate(column.begin(), column.end(), 0u);
+  };
+  CHECK(total(kept.nothing) == std::count(kept.patch.begin(), kept.patch.end(), kHitNothing));
+  CHECK(total(kept.back) == std::count(kept.patch.begin(), kept.patch.end(), kHitBack));
+  CHECK(total(kept.buried) == std::count(kept.patch.begin(), kept.patch.end(), kHitBuried));
+  for (const auto* column : {&kept.nothing, &kept.back, &kept.buried}) CHECK(total(*column) > 0);
+  const Rows rows{counted, index, receivers, patches, faces, frames, tracer, make_row_grid(100), 7};
+  RowScratch scratch;
+  for (size_t row = 0; row < receivers.size(); ++row) {
+    const RowHits hits = find_row(scratch, rows, row);
+    const size_t first = row * kept.ray_count;
+    REQUIRE(std::equal(hits.patch.begin(), hits.patch.end(), kept.patch.begin() + first));
+    REQUIRE(std::equal(hits.cell.begin(), hits.cell.end(), kept.cell.begin() + first));
+  }
 }
 
 TEST_CASE("patches: finer in corners, balanced, within the budget") {

@@ -31,7 +31,8 @@ TEST_CASE("render with all of its flags") {
                                               "--rays",    "32",          "--threads",     "3",
                                               "--seed",    "7",           "--max-patches", "5000",
                                               "--format",  "exr,csv,exr", "--report",      "r.json",
-                                              "--quiet",   "--color",     "never",         "room.yaml"});
+                                              "--quiet",   "--color",     "never",         "--form-factors",
+                                              "recompute", "room.yaml"});
   CHECK(options.verb == Verb::kRender);
   CHECK(options.scene == "room.yaml");
   CHECK(options.out == "lit");
@@ -49,6 +50,7 @@ TEST_CASE("render with all of its flags") {
   CHECK(options.max_patches == 5000u);
   CHECK(options.formats == std::vector<std::string>{"exr", "csv"});
   CHECK(options.report == "r.json");
+  CHECK(options.keep_rows == false);
   CHECK(options.quiet);
   CHECK((options.color == ColorChoice::kNever));
 }

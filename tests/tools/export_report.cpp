@@ -23,7 +23,9 @@ struct Example {
     solution.patches.area = {3, 1, 1};
     solution.receivers.receiver_of = {0, 1, 2};
     solution.hits.ray_count = 2;
-    solution.hits.patch = {0, kHitBack, kHitNothing, 1, kHitBuried, 0};
+    // Two on lit sides or backs; one of two; the one that is not buried.
+    solution.hits.nothing = {0, 1, 0};
+    solution.hits.buried = {0, 0, 1};
     solution.passes.push_back(
         {.pass = 1, .ray_count = 5, .added_power = DRgb(8), .added_largest = 1, .seconds = 0});
   }

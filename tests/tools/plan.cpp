@@ -118,6 +118,25 @@ TEST_CASE("pictures have limits: a side and all pixels") {
   }
 }
 
+TEST_CASE("form factors are kept where memory allows, or as the flag says") {
+  Scene scene = make_scene();
+  Options options;
+  make_plan(scene, options);
+  CHECK(scene.solver.keep_rows);
+  // Rows of a million rays for 24,000 patches: 192 GB.
+  options.rays = 1'000'000;
+  make_plan(scene, options);
+  CHECK(!scene.solver.keep_rows);
+  options.keep_rows = true;
+  const Plan plan = make_plan(scene, options);
+  CHECK(scene.solver.keep_rows);
+  CHECK(find_slug([&] { check_limits(scene, plan); }) == "memory-limit");
+  options.rays = 16;
+  options.keep_rows = false;
+  make_plan(scene, options);
+  CHECK(!scene.solver.keep_rows);
+}
+
 TEST_CASE("counts and bytes read the same in every locale") {
   CHECK(format_count(999999) == "999999");
   CHECK(format_count(1234567) == "1.23 million");

@@ -76,14 +76,13 @@ uint64_t direct_light(Scratch& scratch, const Bench& b) {
 }
 
 uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {
-  return cast_rows(scratch.hits, scratch.patches, b.refined.receivers, b.scene.faces, b.refined.frames,
-                   b.tracer, b.settings.rays, b.settings.seed);
+  return cast_rows(scratch.hits, scratch.patches, b.refined.patch_index, b.refined.receivers, b.scene.faces,
+                   b.refined.frames, b.tracer, {b.settings.rays, b.settings.seed});
 }
 
 uint64_t second_pass(Scratch& scratch, const Bench& b) {
-  return gather_elements(scratch.irradiance, b.passed.hits, b.passed.receivers, b.passed.patches,
-                         {b.passed.elements, b.passed.element_first}, b.sent, b.sources, b.scene.faces,
-                         b.passed.frames, b.tracer, b.settings.seed);
+  return gather_elements(scratch.irradiance, get_rows(b.passed, b.scene.faces, b.tracer, b.settings),
+                         {b.passed.elements, b.passed.element_first}, b.sent, b.sources);
 }
 
 Bench make_bench(const std::string& path, uint64_t max_patches) {
@@ -175,7 +174,8 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
 
   const auto factors = static_cast<double>(b.passed.hits.patch.size());
   kernels.push_back({"gather_patches", "factors/s", threads, Clock::kWall, [&, factors] {
-                       gather_patches(scratch.irradiance, {}, b.passed.hits, b.passed.receivers,
+                       gather_patches(scratch.irradiance, {},
+                                      get_rows(b.passed, b.scene.faces, b.tracer, b.settings),
                                       b.passed.patches.unshot);
                        return factors;
                      }});

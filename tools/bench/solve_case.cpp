@@ -18,9 +18,10 @@ double seconds_of(const timeval& time) {
 }
 
 bool is_closed(const Solution& solution) {
-  const std::vector<uint32_t>& hit = solution.hits.patch;
-  return std::none_of(hit.begin(), hit.end(),
-                      [](uint32_t patch) { return patch == kHitNothing || patch == kHitBack; });
+  const auto is_none = [](const std::vector<uint32_t>& column) {
+    return std::all_of(column.begin(), column.end(), [](uint32_t count) { return count == 0; });
+  };
+  return is_none(solution.hits.nothing) && is_none(solution.hits.back);
 }
 
 bool is_furnace(const Solution& solution, const FaceTable& faces) {
