@@ -84,6 +84,8 @@ constexpr KeyRow kSolverRows[] = {
      "Neighbours that differ by more than this share of the larger one are split."},
     {"max_patches", kInteger, false, "200000", 1, 1e9, "out-of-range", "", "The budget of patches."},
     {"rays", kInteger, false, "256", 1, 1e6, "out-of-range", "", "Rays a row of form factors."},
+    {"quality", kNumber, false, "1", kQualityMin, kQualityMax, "out-of-range", "",
+     "More rays and smaller patches at once: about so many times the time."},
     {"seed", kInteger, false, "1", 0, 4e18, "out-of-range", "", "Another seed, other samples."},
 };
 

@@ -19,6 +19,7 @@ constexpr double kEmissionMax = 1e20;       // W/m2
 constexpr uint32_t kImageSideMax = 16'384;  // pixels
 constexpr uint64_t kImagePixelsMax = 64'000'000;
 constexpr uint32_t kPassesMax = 10'000;
+constexpr double kQualityMin = 0.01, kQualityMax = 100;  // times the work
 constexpr uint64_t kStartPatchesMax =
     1'000'000;  // what `subdivide` may ask for, unless max_patches is larger
 constexpr size_t kExpressionBytesMax = 1000;

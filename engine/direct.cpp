@@ -6,7 +6,8 @@
 // Shadows, 2018.)
 #include "direct.h"
 
-#include "lambert.h"
+#include "aims.h"
+#include "lamps.h"
 #include "parallel.h"
 #include "rows.h"
 
@@ -14,97 +15,16 @@
 #include <atomic>
 #include <bit>
 #include <cassert>
-#include <numeric>
 
 namespace patchlight {
 namespace {
 
-// Above this mean share of its sky a polygon leaves lamps to its rows: closed rooms in which all emits come
-// out exact then.
-constexpr double kLampSkyMax = 0.8;
-// A lamp this many times smaller than its distance is a point to the closed form (error about 1e-3 of it at
-// most).
-constexpr float kFarLamp = 0.05f;
-// A lamp that looks smaller than this takes four points: the rule's error on 1 / r^4 is 0.1 (size /
-// distance)^4.
-constexpr float kNearbyLamp = 0.15f;
-constexpr float kGauss[2] = {0.21132487f, 0.78867513f};  // Gauss's points of [0, 1] for two
 // An element nearer to a lamp than this many of its edges takes its mean factor by Gauss's rule, not at its
 // centre.
 constexpr float kNearLamp = 40;
-// So many lamps, the most powerful ones, may be aimed at: ranking them costs polygons times lamps.
-constexpr size_t kLampsRankedMax = 512;
 // A lamp that gives less than this share of an element's light, blockers aside, gets no more than one packet.
 constexpr double kWeakLamp = 0.06;
 constexpr uint32_t kPacketsMax = 16;  // of pairs for an element and a lamp
-// Patches of a polygon from which its lamps are ranked.
-constexpr uint32_t kAimProbes = 64;
-
-struct Lamp {
-  uint32_t face;
-  Vec3 centre, normal;
-  std::array<Vec3, 4> corners;
-  uint32_t corner_count;
-  float area, diameter;
-  Vec2 twist;  // of the bilinear map in the basis of its edges: the Jacobian is 1 + v x + u y
-  bool is_parallelogram;
-  std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
-};
-
-Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face) {
-  Lamp lamp{face,
-            cell_centre(frames, face, 0, 0),
-            faces.normal[face],
-            faces.corners[face],
-            faces.corner_count[face],
-            cell_area(frames, face, 0, 0),
-            0,
-            Vec2(0),
-            frames.affine[face] && !frames.triangle[face],
-            {}};
-  for (size_t a = 0; a < lamp.corner_count; ++a)
-    for (size_t b = 0; b < a; ++b)
-      lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
-  for (size_t k = 0; k < 4; ++k) lamp.gauss[k] = face_point(frames, face, {kGauss[k % 2], kGauss[k / 2]});
-  if (!frames.affine[face])
-    lamp.twist = {dot(frames.twist[face], frames.dual_u[face]), dot(frames.twist[face], frames.dual_v[face])};
-  return lamp;
-}
-
-// The unoccluded form factor from a point to the lamp.
-float find_factor(Vec3 point, Vec3 normal, const Lamp& lamp) {
-  const Vec3 way = lamp.centre - point;
-  const float distance_squared = dot(way, way);
-  if (lamp.diameter * lamp.diameter < kFarLamp * kFarLamp * distance_squared) {
-    const float cosines = dot(way, normal) * -dot(way, lamp.normal);
-    if (dot(way, normal) <= 0 || cosines <= 0) return 0;
-    return cosines * lamp.area / (kPi * distance_squared * distance_squared);
-  }
-  if (lamp.is_parallelogram && lamp.diameter * lamp.diameter < kNearbyLamp * kNearbyLamp * distance_squared) {
-    float sum = 0;
-    bool above = true;
-    for (const Vec3& p : lamp.gauss) {
-      const Vec3 to = p - point;
-      const float squared = dot(to, to), cosine = dot(to, normal);
-      // The corners lie 1.74 times as far out as these points: near the horizon the closed form cuts them.
-      above &= cosine > lamp.diameter;
-      sum += cosine * -dot(to, lamp.normal) / (squared * squared);
-    }
-    if (above) return std::max(sum * lamp.area / (4 * kPi), 0.0f);
-  }
-  return static_cast<float>(
-      find_point_form_factor(DVec3(point), DVec3(normal), std::span(lamp.corners).first(lamp.corner_count)));
-}
-
-// Can any point of the patch be lit by the lamp at all, blockers aside?
-bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp) {
-  const auto any_above = [](const std::array<Vec3, 4>& points, Vec3 base, Vec3 up, float slack) {
-    return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return dot(p - base, up) > slack; });
-  };
-  const float slack = ray_offset(patch[0]);
-  return any_above(lamp.corners, patch[0], normal, slack) &&
-         any_above(patch, lamp.centre, lamp.normal, slack);
-}
 
 // Sixteen points just off an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts
 // of their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or
@@ -293,117 +213,7 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   return sum / (static_cast<float>(part_count) * (triangle ? 3.0f : 4.0f));
 }
 
-std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames) {
-  std::vector<Lamp> lamps;
-  for (uint32_t f = 0; f < faces.size(); ++f)
-    if (largest(faces.emission[f]) > 0) lamps.push_back(make_lamp(faces, frames, f));
-  return lamps;
-}
-
-// A lamp that could light a polygon, and how strongly.
-struct Candidate {
-  double strength;
-  uint32_t face;
-};
-
-// Lamps that reach any of the patches `rows` (ascending); sky: the mean share of their sky that they fill,
-// both from up to kAimProbes patches.
-void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<const Lamp> lamps,
-                     std::span<const uint32_t> rows, const PatchTable& patches, const FaceTable& faces,
-                     const FaceFrameTable& frames) {
-  const size_t step = std::max(rows.size() / kAimProbes, size_t{1});
-  candidates.clear();
-  double sky_sum = 0, area_sum = 0;
-  for (size_t k = 0; k < rows.size(); k += step) area_sum += patches.area[rows[k]] * patches.exposed[rows[k]];
-  for (const Lamp& lamp : lamps) {
-    const auto is_reached = [&](size_t k) {
-      const uint32_t face = patches.face[rows[k]];
-      if (k > 0 && face == patches.face[rows[k - 1]]) return false;  // asked before
-      return lamp.face != face && can_reach(cell_corners(frames, face, 0, 0), faces.normal[face], lamp);
-    };
-    bool reached = false;
-    for (size_t k = 0; k < rows.size() && !reached; ++k) reached = is_reached(k);
-    if (!reached) continue;
-    double seen = 0;
-    for (size_t k = 0; k < rows.size(); k += step) {
-      const uint32_t row = rows[k], face = patches.face[row];
-      const Vec3 centre = cell_centre(frames, face, patches.cell[row], patches.level[row]);
-      seen += patches.area[row] * patches.exposed[row] * find_factor(centre, faces.normal[face], lamp);
-    }
-    sky_sum += seen;
-    candidates.push_back({seen * luminance(faces.emission[lamp.face]), lamp.face});
-  }
-  sky = area_sum > 0 ? sky_sum / area_sum : 0;
-}
-
-// A list of its own for every polygon, but one for all polygons whose patches share a receiver. Returns the
-// number of lists, which are in the order of their first polygons.
-uint32_t share_lists(std::vector<uint32_t>& list_of, const FaceTable& faces, const PatchTable& patches,
-                     const ReceiverTable& receivers) {
-  list_of.resize(faces.size() ? faces.polygon.back() + 1 : 0);
-  std::iota(list_of.begin(), list_of.end(), 0u);
-  const auto find_root = [&](uint32_t polygon) {
-    while (list_of[polygon] != polygon) polygon = list_of[polygon] = list_of[list_of[polygon]];
-    return polygon;
-  };
-  for (size_t r = 0; r < receivers.size(); ++r)
-    for (uint32_t k = receivers.first[r] + 1; k < receivers.first[r + 1]; ++k) {
-      const uint32_t a = find_root(faces.polygon[patches.face[receivers.patch[k - 1]]]);
-      const uint32_t b = find_root(faces.polygon[patches.face[receivers.patch[k]]]);
-      list_of[std::max(a, b)] = std::min(a, b);
-    }
-  // A root is the first polygon of its list.
-  uint32_t count = 0;
-  for (uint32_t polygon = 0; polygon < list_of.size(); ++polygon)
-    list_of[polygon] = list_of[polygon] == polygon ? count++ : list_of[list_of[polygon]];
-  return count;
-}
-
 }  // namespace
-
-AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches,
-                   const ReceiverTable& receivers) {
-  assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
-  std::vector<Lamp> lamps = make_lamps(faces, frames);
-  if (lamps.size() > kLampsRankedMax) {
-    const auto power = [&](const Lamp& lamp) {
-      return double{lamp.area} * luminance(faces.emission[lamp.face]);
-    };
-    std::nth_element(lamps.begin(), lamps.begin() + kLampsRankedMax, lamps.end(),
-                     [&](const Lamp& a, const Lamp& b) {
-                       return power(a) != power(b) ? power(a) > power(b) : a.face < b.face;
-                     });
-    lamps.resize(kLampsRankedMax);
-  }
-  AimTable aims;
-  const uint32_t list_count = share_lists(aims.list_of, faces, patches, receivers);
-  std::vector<std::vector<uint32_t>> rows(list_count), chosen(list_count);
-  for (uint32_t row = 0; row < patches.size(); ++row)
-    rows[aims.list_of[faces.polygon[patches.face[row]]]].push_back(row);
-  for_rows(list_count, 4, [&](size_t begin, size_t end) {
-    std::vector<Candidate> candidates;
-    for (size_t list = begin; list < end; ++list) {
-      double sky = 0;
-      find_candidates(candidates, sky, lamps, rows[list], patches, faces, frames);
-      if (sky > kLampSkyMax) continue;
-      if (candidates.size() > kAimedLampsMax) {
-        std::nth_element(candidates.begin(), candidates.begin() + kAimedLampsMax, candidates.end(),
-                         [](const Candidate& a, const Candidate& b) {
-                           return a.strength != b.strength ? a.strength > b.strength : a.face < b.face;
-                         });
-        candidates.resize(kAimedLampsMax);
-      }
-      for (const Candidate& candidate : candidates) chosen[list].push_back(candidate.face);
-      std::sort(chosen[list].begin(), chosen[list].end());
-    }
-  });
-  aims.list_first.push_back(0);
-  for (const auto& list : chosen) {
-    aims.lamp.insert(aims.lamp.end(), list.begin(), list.end());
-    aims.list_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
-  }
-  return aims;
-}
 
 uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
                       std::span<const uint32_t> element_patch, const PatchTable& patches,

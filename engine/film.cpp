@@ -16,7 +16,7 @@ constexpr uint32_t kSide = 4;  // samples a pixel: 4 x 4
 // Where elements of different brightness share a pixel, more: the noise of an edge's cover is as large as the
 // step is high. Steps are told in the scene's mean radiosity.
 constexpr uint32_t kSideContrast = 8, kSideHighContrast = 16;
-constexpr float kContrast = 2, kHighContrast = 10;
+constexpr float kContrast = 1, kHighContrast = 3;
 constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
 
 struct Pinhole {

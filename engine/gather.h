@@ -17,20 +17,15 @@ void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const Rows& rows,
                     std::span<const Rgb> sent);
 
-// Bright places to aim at: nodes of the element trees that send more than three times the scene's mean, about
-// `count` of them, always the node of most flux split first.
-SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
-                         std::span<const Rgb> sent, uint32_t count);
-
 struct Elements {
   const PatchTable& table;
   std::span<const uint32_t> first;  // CSR: patch -> its elements
 };
 
-// Irradiance of each patch from what the elements send (a row an element, W/m2): its row's rays and as many
-// rays aimed at the sources, joined by multiple importance sampling with the power heuristic (Veach, Guibas:
-// Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995). Nothing is counted twice, and
-// rows carry what no source covers. Returns the number of rays.
+// Irradiance of each patch from what the elements send (a row an element, W/m2): its row's rays and a
+// quarter as many aimed at the sources, joined by multiple importance sampling with the power heuristic
+// (Veach, Guibas: Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995). Nothing is
+// counted twice, and rows carry what no source covers. Returns the number of rays.
 uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elements& elements,
                          std::span<const Rgb> sent, const SourceTable& sources);
 

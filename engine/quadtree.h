@@ -5,9 +5,18 @@
 #include "cell.h"
 
 #include <functional>
+#include <numeric>
 #include <span>
+#include <vector>
 
 namespace patchlight {
+
+// 0 .. count - 1.
+inline std::vector<uint32_t> all_rows(size_t count) {
+  std::vector<uint32_t> rows(count);
+  std::iota(rows.begin(), rows.end(), 0u);
+  return rows;
+}
 
 // Which edges and corners of the faces of one polygon coincide. Faces of a polygon must share whole edges or
 // nothing (the loader cuts them so); coinciding corners must be equal bit by bit.

@@ -44,23 +44,12 @@ uint32_t find_normal_kind(Vec3 n) {
 bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patches, const FaceTable& faces,
                     const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed, float scale) {
   const uint32_t face = patches.face[patch], cell = patches.cell[patch], level = patches.level[patch];
-  const Frame frame = make_frame(faces.normal[face]);
-  const uint64_t key = make_row_key(seed, face, cell, level, kRowShare);
-  HitPacket packet;
-  make_row_packet(packet, frames, frame, face, cell, level, key, make_row_grid(kPacketSize), 0);
-  find_hits(tracer, packet, 0xffff);
-  float inverse_sum = 0;
-  uint32_t back = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (packet.face[k] == kNone) continue;
-    const RayPacket& r = packet.ray;
-    inverse_sum += 1 / std::max(r.far_distance[k], 1e-6f * scale);
-    const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-    if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
-  }
-  const uint32_t buried = back ? find_buried(tracer, faces, frame, packet.ray, back) : 0;
-  if (buried && buried != 0xffff) return false;
-  const float reach = kPacketSize / std::max(inverse_sum, 1e-6f / scale);
+  const Probe probe =
+      probe_patch(faces, frames, tracer, face, cell, level, make_row_key(seed, face, cell, level, kRowShare),
+                  make_row_grid(kPacketSize));
+  const bool buried = probe.buried_count > 0;
+  if (buried && probe.buried_count < probe.ray_count) return false;
+  const float reach = kPacketSize / std::max(probe.inverse_distance_sum, 1e-6f / scale);
   candidate.patch = patch;
   candidate.span = std::clamp(kSpanPerDistance * reach, kSpanMin * scale, kSpanMax * scale);
   if (cell_area(frames, face, 0, 0) > kSmallFace * kSmallFace * candidate.span * candidate.span) return false;
@@ -139,6 +128,33 @@ ReceiverTable make_single_receivers(const PatchTable& patches, const FaceTable& 
   ReceiverTable receivers = make_empty(patches);
   for (uint32_t patch = 0; patch < patches.size(); ++patch)
     add_receiver(receivers, std::span(&patch, 1), patches, faces, frames);
+  return receivers;
+}
+
+ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint32_t> parent,
+                              const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
+                              std::vector<uint32_t>& row_before) {
+  const auto is_shared = [&](uint32_t row) { return before.first[row + 1] - before.first[row] > 1; };
+  ReceiverTable receivers = make_empty(patches);
+  row_before.clear();
+  const auto is_split = [&](uint32_t patch) {
+    return (patch > 0 && parent[patch - 1] == parent[patch]) ||
+           (patch + 1 < parent.size() && parent[patch + 1] == parent[patch]);
+  };
+  for (uint32_t patch = 0; patch < patches.size(); ++patch) {
+    const uint32_t row = before.receiver_of[parent[patch]];
+    if (is_shared(row)) continue;
+    add_receiver(receivers, std::span(&patch, 1), patches, faces, frames);
+    row_before.push_back(is_split(patch) ? kNone : row);
+  }
+  std::vector<std::vector<uint32_t>> members(before.size());
+  for (uint32_t patch = 0; patch < patches.size(); ++patch)
+    if (const uint32_t row = before.receiver_of[parent[patch]]; is_shared(row)) members[row].push_back(patch);
+  for (uint32_t row = 0; row < before.size(); ++row) {
+    if (members[row].empty()) continue;
+    add_receiver(receivers, members[row], patches, faces, frames);
+    row_before.push_back(row);
+  }
   return receivers;
 }
 

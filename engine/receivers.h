@@ -1,7 +1,7 @@
 // Which patches share one row of rays.
 #pragma once
 
-#include "rows.h"
+#include "patches.h"
 
 namespace patchlight {
 
@@ -15,5 +15,12 @@ ReceiverTable make_single_receivers(const PatchTable& patches, const FaceTable& 
 // rays.
 ReceiverTable make_receivers(const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
                              const Tracer& tracer, uint64_t seed, uint64_t& ray_count);
+
+// After patches were split: parts of a patch on its own have receivers of their own, parts of others share
+// theirs with them. parent: a row a patch as they are now: the one before. row_before: a row a receiver of
+// the result: the one before, or kNone where its row must be cast.
+ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint32_t> parent,
+                              const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
+                              std::vector<uint32_t>& row_before);
 
 }  // namespace patchlight

@@ -12,7 +12,6 @@
 namespace patchlight {
 namespace {
 
-constexpr uint32_t kProbeRays = 32;
 // The step for which the lattice (k, k * step mod count) fills the square most evenly: its shortest vector is
 // longest.
 uint32_t find_lattice_step(uint32_t count) {
@@ -42,17 +41,6 @@ inline Vec3 make_local_direction(float px, float py) {
   const float along = radius * cosine, across = radius * sine;
   const float u = wide ? along : across, v = wide ? across : along;
   return {u, v, std::sqrt(std::max(1 - u * u - v * v, 1e-9f))};
-}
-
-// Of the marked patches only the `count` largest: where the budget ends, they have the most to gain.
-void keep_largest(std::vector<uint8_t>& marks, uint64_t count, const PatchTable& patches) {
-  std::vector<uint32_t> rows;
-  for (uint32_t row = 0; row < marks.size(); ++row)
-    if (marks[row]) rows.push_back(row);
-  std::sort(rows.begin(), rows.end(), [&](uint32_t a, uint32_t b) {
-    return patches.area[a] != patches.area[b] ? patches.area[a] > patches.area[b] : a < b;
-  });
-  for (size_t k = count; k < rows.size(); ++k) marks[rows[k]] = 0;
 }
 
 }  // namespace
@@ -250,20 +238,20 @@ RowCounts cast_row(std::span<uint32_t> patch, std::span<uint32_t> cell, const Le
 
 }  // namespace
 
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const LeafIndex& index,
-                   const ReceiverTable& receivers, const FaceTable& faces, const FaceFrameTable& frames,
-                   const Tracer& tracer, const RowSettings& settings) {
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, std::span<const uint32_t> which,
+                   const LeafIndex& index, const ReceiverTable& receivers, const FaceTable& faces,
+                   const FaceFrameTable& frames, const Tracer& tracer, const RowSettings& settings) {
   const RowGrid grid = make_row_grid(settings.rays);
-  const size_t count = receivers.size();
   hits.ray_count = grid.ray_count();
-  for (std::vector<uint32_t>* column : {&hits.nothing, &hits.back, &hits.buried}) column->resize(count);
-  hits.patch.resize(settings.keep ? count * hits.ray_count : 0);
+  for (std::vector<uint32_t>* column : {&hits.nothing, &hits.back, &hits.buried})
+    column->resize(receivers.size());
+  hits.patch.resize(settings.keep ? receivers.size() * hits.ray_count : 0);
   hits.cell.resize(hits.patch.size());
-  for_rows(count, 16, [&](size_t begin, size_t end) {
+  for_rows(which.size(), 16, [&](size_t begin, size_t end) {
     RowScratch scratch;
     if (!settings.keep) scratch.patch.resize(hits.ray_count), scratch.cell.resize(hits.ray_count);
-    for (size_t row = begin; row < end; ++row) {
-      const size_t first = row * hits.ray_count;
+    for (size_t k = begin; k < end; ++k) {
+      const size_t row = which[k], first = row * hits.ray_count;
       const auto [nothing, back, buried] =
           settings.keep ? cast_row(std::span(hits.patch).subspan(first, hits.ray_count),
                                    std::span(hits.cell).subspan(first, hits.ray_count), index, receivers, row,
@@ -272,11 +260,43 @@ uint64_t cast_rows(HitTable& hits, PatchTable& patches, const LeafIndex& index,
                                    tracer, grid, settings.seed);
       hits.nothing[row] = nothing, hits.back[row] = back, hits.buried[row] = buried;
       const float exposed = 1 - static_cast<float>(buried) / static_cast<float>(hits.ray_count);
-      for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k)
-        patches.exposed[receivers.patch[k]] = exposed;
+      for (uint32_t m = receivers.first[row]; m < receivers.first[row + 1]; ++m)
+        patches.exposed[receivers.patch[m]] = exposed;
     }
   });
-  return uint64_t{hits.ray_count} * count;
+  return uint64_t{hits.ray_count} * which.size();
+}
+
+void move_rows(HitTable& hits, std::span<const uint32_t> row_before, const PatchTable& before,
+               std::span<const uint32_t> parent) {
+  std::vector<uint32_t> patch_first(before.size() + 1, 0);  // CSR: patch before -> patches now
+  for (const uint32_t patch : parent) ++patch_first[patch + 1];
+  std::partial_sum(patch_first.begin(), patch_first.end(), patch_first.begin());
+  const HitTable old = std::move(hits);
+  const size_t ray_count = old.ray_count, count = row_before.size();
+  hits = {};
+  hits.ray_count = old.ray_count;
+  for (std::vector<uint32_t>* column : {&hits.nothing, &hits.back, &hits.buried}) column->assign(count, 0);
+  hits.patch.resize(old.patch.empty() ? 0 : count * ray_count);
+  hits.cell.resize(hits.patch.size());
+  for_rows(count, 64, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const size_t from = row_before[row];
+      if (from == kNone) continue;
+      hits.nothing[row] = old.nothing[from], hits.back[row] = old.back[from];
+      hits.buried[row] = old.buried[from];
+      if (old.patch.empty()) continue;
+      for (size_t k = 0; k < ray_count; ++k) {
+        const uint32_t hit = old.patch[from * ray_count + k], cell = old.cell[from * ray_count + k];
+        uint32_t& patch = hits.patch[row * ray_count + k];
+        hits.cell[row * ray_count + k] = cell;
+        patch = hit;
+        if (hit >= kHitBuried) continue;
+        patch = patch_first[hit];
+        if (patch_first[hit + 1] - patch > 1) patch += cell_child(cell, before.level[hit] + 1);
+      }
+    }
+  });
 }
 
 RowHits find_row(RowScratch& scratch, const Rows& rows, size_t receiver) {
@@ -290,79 +310,6 @@ RowHits find_row(RowScratch& scratch, const Rows& rows, size_t receiver) {
   cast_row(scratch.patch, scratch.cell, rows.index, rows.receivers, receiver, rows.patches, rows.faces,
            rows.frames, rows.tracer, rows.grid, rows.seed);
   return {scratch.patch, scratch.cell};
-}
-
-PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
-                        const Tracer& tracer, uint64_t patch_count_max, uint64_t seed, uint64_t& ray_count) {
-  const float scale = find_scene_scale(faces, frames);
-  // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
-  float edge_max = kPatchEdgeMax * scale;
-  const auto start_level = [&](uint32_t face) {
-    uint32_t level = 0;
-    float edge = longest_edge(cell_corners(frames, face, 0, 0));
-    while (edge > edge_max && level < kLevelMax - 1) edge /= 2, ++level;
-    return level;
-  };
-  const auto count_at_start = [&] {
-    uint64_t count = 0;
-    for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * start_level(f);
-    return count;
-  };
-  const uint64_t room_at_start = patch_count_max > faces.size() ? (patch_count_max - faces.size()) / 2 : 0;
-  while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
-  PatchTable patches = make_leaves(faces, frames, start_level);
-  balance_leaves(patches, frames, links);
-  const RowGrid grid = make_row_grid(kProbeRays);
-  std::vector<uint8_t> fresh(patches.size(), 1);
-  for (;;) {
-    std::vector<uint8_t> marks(patches.size(), 0);
-    std::atomic<uint64_t> probed{0}, marked{0};
-    for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
-      HitPacket packet;
-      for (size_t row = begin; row < end; ++row) {
-        const uint32_t face = patches.face[row], cell = patches.cell[row], level = patches.level[row];
-        const float edge = longest_edge(cell_corners(frames, face, cell, level));
-        if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
-        const Frame frame = make_frame(faces.normal[face]);
-        const uint64_t key = make_row_key(seed, face, cell, level, kRowProbe);
-        float inverse_sum = 0;
-        uint32_t buried_count = 0, hit_count = 0;
-        for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-          make_row_packet(packet, frames, frame, face, cell, level, key, grid, tile);
-          find_hits(tracer, packet, 0xffff);
-          uint32_t back = 0;
-          for (uint32_t k = 0; k < kPacketSize; ++k) {
-            if (packet.face[k] == kNone) continue;
-            ++hit_count;
-            inverse_sum += 1 / std::max(packet.ray.far_distance[k], 1e-6f);
-            const RayPacket& r = packet.ray;
-            const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-            if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
-          }
-          if (back) buried_count += std::popcount(find_buried(tracer, faces, frame, packet.ray, back));
-        }
-        probed += grid.ray_count();
-        const bool at_solid = buried_count > 0 && buried_count < grid.ray_count();
-        const bool near = edge * inverse_sum > kPatchEdgePerDistance * static_cast<float>(hit_count);
-        const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
-        if (buried_count == grid.ray_count() || !(near || at_solid) || edge < 2 * edge_min) continue;
-        marks[row] = 1;
-        ++marked;
-      }
-    });
-    ray_count += probed;
-    if (!marked) return patches;
-    const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 3 : 0;
-    const bool last = marked > room;
-    if (last) keep_largest(marks, room, patches);
-    mark_for_balance(marks, patches, frames, links);
-    std::vector<uint32_t> parent;
-    const PatchTable before = std::move(patches);
-    patches = split_leaves(before, frames, marks, parent);
-    if (last) return patches;
-    fresh.assign(patches.size(), 0);
-    for (size_t row = 0; row < patches.size(); ++row) fresh[row] = marks[parent[row]];
-  }
 }
 
 }  // namespace patchlight

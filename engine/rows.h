@@ -55,11 +55,17 @@ struct RowSettings {
   bool keep = true;  // false: only the counts of each row are kept, and rows are cast again when asked for
 };
 
-// Casts the rows of all receivers. Returns the number of rays cast and writes the exposed share of each
-// patch.
-uint64_t cast_rows(HitTable& hits, PatchTable& patches, const LeafIndex& index,
-                   const ReceiverTable& receivers, const FaceTable& faces, const FaceFrameTable& frames,
-                   const Tracer& tracer, const RowSettings& settings);
+// Casts the rows of the receivers `which`; others are not touched. Returns the number of rays cast and writes
+// the exposed share of their patches.
+uint64_t cast_rows(HitTable& hits, PatchTable& patches, std::span<const uint32_t> which,
+                   const LeafIndex& index, const ReceiverTable& receivers, const FaceTable& faces,
+                   const FaceFrameTable& frames, const Tracer& tracer, const RowSettings& settings);
+
+// After patches were split: row k of the result is row row_before[k] of what was (kNone: still to be cast),
+// and hits name the patches as they are now. before: the patches as they were; parent: a row a patch as they
+// are now, the one before.
+void move_rows(HitTable& hits, std::span<const uint32_t> row_before, const PatchTable& before,
+               std::span<const uint32_t> parent);
 
 // The rows of all receivers, kept or not: what a gather reads.
 struct Rows {
@@ -84,18 +90,5 @@ struct RowScratch {
 // The row of a receiver: out of the table, or cast once more into `scratch`, with the same rays and so the
 // same hits. Valid until the next call with this scratch.
 RowHits find_row(RowScratch& scratch, const Rows& rows, size_t receiver);
-
-// Of the square root of the scene's area: a patch is never larger, and not split below the smallest.
-constexpr float kPatchEdgeMax = 0.06f;
-constexpr float kPatchEdgeMin = 0.005f;
-constexpr float kPatchEdgeMinAtSolid = 0.003f;
-// A patch's edge over the harmonic mean distance of what it sees (Ward, Heckbert: Irradiance Gradients, 1992,
-// use the same mean for the reach of a sample).
-constexpr float kPatchEdgePerDistance = 0.14f;
-
-// Patches as fine as the transport between them needs: split while larger than a quarter of the mean distance
-// to what they see. Returns balanced leaves; ray_count is raised by the probing rays.
-PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
-                        const Tracer& tracer, uint64_t patch_count_max, uint64_t seed, uint64_t& ray_count);
 
 }  // namespace patchlight

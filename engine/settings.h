@@ -1,6 +1,8 @@
 // What a user may ask of the solver. One struct; each line says what a larger value does.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace patchlight {
@@ -13,8 +15,19 @@ struct SolverSettings {
   float threshold = 0.1f;    // neighbours that differ by a larger share of the larger one are split
   uint64_t patch_count_max = 200000;  // the budget of patches (elements)
   uint32_t rays = 256;                // rays a row; more: less noise, more time
-  uint64_t seed = 1;                  // another seed, other samples
-  bool keep_rows = true;              // false: form factors are computed again in every pass; same bits
+  float quality = 1;  // times the rays and finer patches at once: about so many times the time; less error
+  uint64_t seed = 1;  // another seed, other samples
+  bool keep_rows = true;  // false: form factors are computed again in every pass; same bits
 };
+
+// Rays a row, with quality counted in: two thirds of the extra time go into rays ...
+inline uint32_t count_row_rays(const SolverSettings& settings) {
+  const double rays = settings.rays * std::pow(double{settings.quality}, 2 / 3.0);
+  return static_cast<uint32_t>(std::max(std::lround(rays), 1l));
+}
+// ... and one third into smaller patches: what automatic lengths of patches are multiplied with.
+inline float find_size_factor(const SolverSettings& settings) {
+  return std::pow(settings.quality, -1 / 6.0f);
+}
 
 }  // namespace patchlight

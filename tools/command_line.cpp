@@ -138,6 +138,11 @@ void add_solver_flags(CLI::App& app, Options& options) {
             [&](const std::string& text) {
               options.rays = static_cast<uint32_t>(parse_count("--rays", text, 1, 1'000'000));
             });
+  add_value(app, "--quality", "Q",
+            "more rays and smaller patches at once: about Q times the time, less error; 1 unless given",
+            [&](const std::string& text) {
+              options.quality = parse_number("--quality", text, kQualityMin, kQualityMax);
+            });
   add_value(app, "--threads", "N", "threads; all cores unless given", [&](const std::string& text) {
     options.threads = static_cast<uint32_t>(parse_count("--threads", text, 1, kThreadsMax));
   });

@@ -1,5 +1,6 @@
 #include "engine/direct.h"
 
+#include "engine/aims.h"
 #include "engine/lambert.h"
 #include "engine/receivers.h"
 #include "engine/rows.h"
@@ -277,8 +278,8 @@ TEST_CASE("the exposed share of elements: all, none, or as many of sixteen point
   const Tracer tracer = make_tracer(faces);
   PatchTable patches = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 2u : 0u; });
   HitTable hits;
-  cast_rows(hits, patches, make_leaf_index(patches), make_single_receivers(patches, faces, frames), faces,
-            frames, tracer, {});
+  cast_rows(hits, patches, all_rows(patches.size()), make_leaf_index(patches),
+            make_single_receivers(patches, faces, frames), faces, frames, tracer, {});
   PatchTable elements = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 4u : 0u; });
   const auto first = find_union_ranges(patches, elements);
   std::vector<uint32_t> element_patch(elements.size()), rows(elements.size());

@@ -1,7 +1,8 @@
 #include "engine/gather.h"
 
-#include "engine/direct.h"
+#include "engine/aims.h"
 #include "engine/receivers.h"
+#include "engine/sources.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
@@ -38,7 +39,8 @@ Room make_room(const Tracer& tracer, const FaceTable& faces, uint64_t seed) {
   room.elements = make_leaves(faces, room.frames, [](uint32_t) { return 5u; });
   room.receivers = make_single_receivers(room.patches, faces, room.frames);
   room.index = make_leaf_index(room.patches);
-  cast_rows(room.hits, room.patches, room.index, room.receivers, faces, room.frames, tracer, {256, seed});
+  cast_rows(room.hits, room.patches, all_rows(room.patches.size()), room.index, room.receivers, faces,
+            room.frames, tracer, {256, seed});
   room.first = find_union_ranges(room.patches, room.elements);
   room.sent.resize(room.elements.size());
   for (uint32_t row = 0; row < room.elements.size(); ++row) {

@@ -62,7 +62,7 @@ Shared share(const FaceTable& faces, uint64_t seed = 1) {
   const Tracer tracer = make_tracer(faces);
   uint64_t rays = 0;
   Shared s{make_face_frames(faces), {}, {}};
-  s.patches = make_patches(faces, s.frames, make_face_links(faces), tracer, 1u << 20, seed, rays);
+  s.patches = make_patches(faces, s.frames, make_face_links(faces), tracer, 1u << 20, 1, seed, rays);
   s.receivers = make_receivers(s.patches, faces, s.frames, tracer, seed, rays);
   return s;
 }

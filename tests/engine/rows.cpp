@@ -46,9 +46,9 @@ Cast cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t se
   Cast rows{make_face_frames(faces), {}, {}};
   rows.patches = make_leaves(faces, rows.frames, [&](uint32_t) { return level; });
   const Tracer tracer = make_tracer(faces);
-  const uint64_t count = cast_rows(rows.hits, rows.patches, make_leaf_index(rows.patches),
-                                   make_single_receivers(rows.patches, faces, rows.frames), faces,
-                                   rows.frames, tracer, {rays, seed});
+  const uint64_t count = cast_rows(
+      rows.hits, rows.patches, all_rows(rows.patches.size()), make_leaf_index(rows.patches),
+      make_single_receivers(rows.patches, faces, rows.frames), faces, rows.frames, tracer, {rays, seed});
   CHECK(count == uint64_t{rows.hits.ray_count} * rows.patches.size());
   return rows;
 }
@@ -243,10 +243,11 @@ TEST_CASE("rows: cast again they are the rows that were kept, and so are their c
   const ReceiverTable receivers = make_single_receivers(patches, faces, frames);
   const LeafIndex index = make_leaf_index(patches);
   HitTable kept, counted;
-  cast_rows(kept, patches, index, receivers, faces, frames, tracer, {100, 7, true});
+  cast_rows(kept, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer,
+            {100, 7, true});
   const std::vector<float> exposed = patches.exposed;
-  CHECK(cast_rows(counted, patches, index, receivers, faces, frames, tracer, {100, 7, false}) ==
-        uint64_t{kept.ray_count} * receivers.size());
+  CHECK(cast_rows(counted, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer,
+                  {100, 7, false}) == uint64_t{kept.ray_count} * receivers.size());
   CHECK(counted.patch.empty());
   CHECK(counted.nothing == kept.nothing);
   CHECK(counted.back == kept.back);
@@ -269,26 +270,39 @@ TEST_CASE("rows: cast again they are the rows that were kept, and so are their c
   }
 }
 
-TEST_CASE("patches: finer in corners, balanced, within the budget") {
+TEST_CASE("rows: what is moved and cast anew after a split is what casting the split patches gives") {
   FaceTable faces = make_unit_room();
-  fit_scene(faces);
+  add_box_outward(faces, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, make_surface(0, 0.5f));
   const FaceFrameTable frames = make_face_frames(faces);
-  const FaceLinkTable links = make_face_links(faces);
   const Tracer tracer = make_tracer(faces);
-  for (const uint64_t budget : {6ull, 1000ull, 100000ull}) {
-    uint64_t ray_count = 0;
-    const PatchTable patches = make_patches(faces, frames, links, tracer, budget, 1, ray_count);
-    CHECK(patches.size() <= budget);
-    CHECK(patches.size() >= faces.size());
-    for (uint32_t row = 0; row < patches.size(); ++row)
-      for (uint32_t edge = 0; edge < 4; ++edge) {
-        const uint32_t other = find_coarse_neighbour(patches, frames, links, row, edge);
-        if (other != kNone) CHECK(patches.level[row] - patches.level[other] <= 1);
-      }
-    if (budget < 100000) continue;
-    CHECK(ray_count > 0);
-    const uint32_t corner = find_leaf(patches, 0, 0),
-                   middle = find_leaf(patches, 0, find_cell(false, {0.5f, 0.5f}));
-    CHECK(patches.level[corner] > patches.level[middle]);
+  PatchTable before = make_leaves(faces, frames, [](uint32_t) { return 2u; });
+  const ReceiverTable receivers_before = make_single_receivers(before, faces, frames);
+  std::vector<uint8_t> marks(before.size(), 0);
+  for (size_t row = 0; row < marks.size(); row += 5) marks[row] = 1;
+  for (const bool keep : {true, false}) {
+    const RowSettings settings{64, 3, keep};
+    HitTable hits, anew;
+    cast_rows(hits, before, all_rows(before.size()), make_leaf_index(before), receivers_before, faces, frames,
+              tracer, settings);
+    std::vector<uint32_t> parent, row_before, fresh;
+    PatchTable patches = split_leaves(before, frames, marks, parent);
+    const ReceiverTable receivers =
+        split_receivers(receivers_before, parent, patches, faces, frames, row_before);
+    REQUIRE(receivers.size() == patches.size());
+    for (uint32_t row = 0; row < row_before.size(); ++row) {
+      CHECK((row_before[row] == kNone) == (marks[parent[row]] == 1));
+      if (row_before[row] == kNone) fresh.push_back(row);
+    }
+    const LeafIndex index = make_leaf_index(patches);
+    move_rows(hits, row_before, before, parent);
+    cast_rows(hits, patches, fresh, index, receivers, faces, frames, tracer, settings);
+    const std::vector<float> exposed = patches.exposed;
+    cast_rows(anew, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer, settings);
+    CHECK(hits.patch == anew.patch);
+    CHECK(hits.cell == anew.cell);
+    CHECK(hits.nothing == anew.nothing);
+    CHECK(hits.back == anew.back);
+    CHECK(hits.buried == anew.buried);
+    CHECK(exposed == patches.exposed);
   }
 }

@@ -6,6 +6,7 @@ set(ENGINE_TEST_SOURCES
   engine/lambert.cpp
   engine/ledger.cpp
   engine/parallel.cpp
+  engine/patches.cpp
   engine/quadtree.cpp
   engine/receivers.cpp
   engine/ray_tape.cpp

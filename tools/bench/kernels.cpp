@@ -7,6 +7,7 @@
 #include "engine/parallel.h"
 #include "engine/ray_tape.h"
 #include "engine/rows.h"
+#include "engine/sources.h"
 #include "engine/vertices.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
@@ -76,8 +77,9 @@ uint64_t direct_light(Scratch& scratch, const Bench& b) {
 }
 
 uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {
-  return cast_rows(scratch.hits, scratch.patches, b.refined.patch_index, b.refined.receivers, b.scene.faces,
-                   b.refined.frames, b.tracer, {b.settings.rays, b.settings.seed});
+  return cast_rows(scratch.hits, scratch.patches, all_rows(b.refined.receivers.size()), b.refined.patch_index,
+                   b.refined.receivers, b.scene.faces, b.refined.frames, b.tracer,
+                   {count_row_rays(b.settings), b.settings.seed});
 }
 
 uint64_t second_pass(Scratch& scratch, const Bench& b) {
@@ -95,8 +97,7 @@ Bench make_bench(const std::string& path, uint64_t max_patches) {
   b.refined = b.start;
   while (refine(b.refined, faces, b.tracer, b.settings)) {
   }
-  b.rows.resize(b.refined.elements.size());
-  std::iota(b.rows.begin(), b.rows.end(), 0);
+  b.rows = all_rows(b.refined.elements.size());
   b.passed = b.refined;
   freeze(b.passed, faces, b.tracer, b.settings);
   advance(b.passed, faces, b.tracer, b.settings);

@@ -1,0 +1,156 @@
+// Faces to patches, by what lies before them and by the light that they carry.
+#include "patches.h"
+
+#include "parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kProbeRays = 32;
+// A difference between neighbours, beyond its noise, splits them if it is more than this share of their
+// radiosity ...
+constexpr float kUnevenShare = 0.02f;
+// ... and, times the area of the patch, more than this share of all light that the scene's area sends.
+constexpr float kUnevenPower = 1e-5f;
+constexpr float kUnevenNoise = 3;          // standard errors
+constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's area: no smaller parts
+
+// Of the marked patches only the `count` of most weight: where the budget ends, they have the most to gain.
+void keep_heaviest(std::vector<uint8_t>& marks, uint64_t count, std::span<const float> weight) {
+  std::vector<uint32_t> rows;
+  for (uint32_t row = 0; row < marks.size(); ++row)
+    if (marks[row]) rows.push_back(row);
+  std::sort(rows.begin(), rows.end(),
+            [&](uint32_t a, uint32_t b) { return weight[a] != weight[b] ? weight[a] > weight[b] : a < b; });
+  for (size_t k = count; k < rows.size(); ++k) marks[rows[k]] = 0;
+}
+
+}  // namespace
+
+Probe probe_patch(const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t face,
+                  uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid) {
+  Probe probe;
+  probe.ray_count = grid.ray_count();
+  const Frame frame = make_frame(faces.normal[face]);
+  HitPacket packet;
+  for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
+    make_row_packet(packet, frames, frame, face, cell, level, row_key, grid, tile);
+    find_hits(tracer, packet, 0xffff);
+    uint32_t back = 0;
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      if (packet.face[k] == kNone) continue;
+      const RayPacket& r = packet.ray;
+      ++probe.hit_count;
+      probe.inverse_distance_sum += 1 / std::max(r.far_distance[k], 1e-6f);
+      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
+      if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
+    }
+    if (back)
+      probe.buried_count +=
+          static_cast<uint32_t>(std::popcount(find_buried(tracer, faces, frame, packet.ray, back)));
+  }
+  return probe;
+}
+
+PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
+                        const Tracer& tracer, uint64_t patch_count_max, float size_factor, uint64_t seed,
+                        uint64_t& ray_count) {
+  const float scale = find_scene_scale(faces, frames) * size_factor;
+  // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
+  float edge_max = kPatchEdgeMax * scale;
+  const auto start_level = [&](uint32_t face) {
+    uint32_t level = 0;
+    float edge = longest_edge(cell_corners(frames, face, 0, 0));
+    while (edge > edge_max && level < kLevelMax - 1) edge /= 2, ++level;
+    return level;
+  };
+  const auto count_at_start = [&] {
+    uint64_t count = 0;
+    for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * start_level(f);
+    return count;
+  };
+  const uint64_t room_at_start = patch_count_max > faces.size() ? (patch_count_max - faces.size()) / 2 : 0;
+  while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
+  PatchTable patches = make_leaves(faces, frames, start_level);
+  balance_leaves(patches, frames, links);
+  const RowGrid grid = make_row_grid(kProbeRays);
+  std::vector<uint8_t> fresh(patches.size(), 1);
+  for (;;) {
+    std::vector<uint8_t> marks(patches.size(), 0);
+    std::atomic<uint64_t> probed{0}, marked{0};
+    for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
+      for (size_t row = begin; row < end; ++row) {
+        const uint32_t face = patches.face[row], cell = patches.cell[row], level = patches.level[row];
+        const float edge = longest_edge(cell_corners(frames, face, cell, level));
+        if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
+        const Probe probe = probe_patch(faces, frames, tracer, face, cell, level,
+                                        make_row_key(seed, face, cell, level, kRowProbe), grid);
+        probed += probe.ray_count;
+        const bool at_solid = probe.buried_count > 0 && probe.buried_count < probe.ray_count;
+        const bool near = edge * probe.inverse_distance_sum >
+                          kPatchEdgePerDistance * size_factor * static_cast<float>(probe.hit_count);
+        const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
+        if (probe.buried_count == probe.ray_count || !(near || at_solid) || edge < 2 * edge_min) continue;
+        marks[row] = 1;
+        ++marked;
+      }
+    });
+    ray_count += probed;
+    if (!marked) return patches;
+    const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 3 : 0;
+    const bool last = marked > room;
+    if (last) keep_heaviest(marks, room, patches.area);
+    mark_for_balance(marks, patches, frames, links);
+    std::vector<uint32_t> parent;
+    const PatchTable before = std::move(patches);
+    patches = split_leaves(before, frames, marks, parent);
+    if (last) return patches;
+    fresh.assign(patches.size(), 0);
+    for (size_t row = 0; row < patches.size(); ++row) fresh[row] = marks[parent[row]];
+  }
+}
+
+std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& light, const FaceTable& faces,
+                                 const FaceFrameTable& frames, const FaceLinkTable& links,
+                                 const FaceLinkTable& joints, uint64_t patch_count_max, float size_factor) {
+  const float edge_min = kUnevenEdgeMin * find_scene_scale(faces, frames) * size_factor;
+  const float area_factor = size_factor * size_factor;
+  const float share = kUnevenShare * area_factor;
+  double power = 0;
+  for (size_t row = 0; row < patches.size(); ++row) power += double{patches.area[row]} * light.total[row];
+  const auto power_least = static_cast<float>(kUnevenPower * power) * area_factor * area_factor;
+  std::vector<uint8_t> marks(patches.size(), 0);
+  std::vector<float> weight(patches.size(), 0);
+  for_rows(patches.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t at = begin; at < end; ++at) {
+      const auto row = static_cast<uint32_t>(at);
+      const uint32_t face = patches.face[row], level = patches.level[row];
+      if (patches.exposed[row] == 0 || level >= kLevelMax - 2) continue;
+      const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
+      if (size < 2 * edge_min) continue;
+      for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
+        for (const uint32_t other : find_neighbours(patches, frames, links, row, edge)) {
+          if (other == kNone || patches.exposed[other] == 0) continue;
+          const float difference = std::abs(light.indirect[row] - light.indirect[other]) -
+                                   kUnevenNoise * std::hypot(light.error[row], light.error[other]);
+          if (difference > share * std::max(light.total[row], light.total[other]))
+            weight[row] = std::max(weight[row], difference * patches.area[row]);
+        }
+      marks[row] = weight[row] > power_least;
+    }
+  });
+  // Splits for balance count towards the budget, too: some room is left to them.
+  const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 4 : 0;
+  keep_heaviest(marks, room, weight);
+  std::vector<uint8_t> balanced = marks;
+  mark_for_balance(balanced, patches, frames, joints);
+  const auto split = static_cast<uint64_t>(std::count(balanced.begin(), balanced.end(), 1));
+  return patches.size() + 3 * split <= patch_count_max ? balanced : std::vector<uint8_t>(patches.size(), 0);
+}
+
+}  // namespace patchlight

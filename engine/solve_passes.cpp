@@ -1,0 +1,74 @@
+// The default solver: pass by pass.
+//
+// B after pass k is the sum over m = 0..k of (rho F)^m E: B starts as E, and every pass adds what the patches
+// receive of the radiosity that the pass before added (Goral, Torrance, Greenberg, Battaile: Modeling the
+// Interaction of Light Between Diffuse Surfaces, 1984; the Neumann series of Kajiya: The Rendering Equation,
+// 1986).
+#include "gather.h"
+#include "solution.h"
+#include "sources.h"
+
+#include <algorithm>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kSourceCount = 400;
+
+}  // namespace
+
+const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tracer,
+                          const SolverSettings& settings) {
+  Stopwatch watch;
+  if (!s.frozen) freeze(s, faces, tracer, settings);
+  const Rows rows = get_rows(s, faces, tracer, settings);
+  PassReport report;
+  report.pass = static_cast<uint32_t>(s.passes.size()) + 1;
+  if (report.pass == 1) {
+    gather_emission(s.irradiance_added, rows, s.aims);
+    report.ray_count = s.direct_ray_count;
+  } else if (report.pass == 2) {
+    const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
+    const uint64_t aimed =
+        gather_elements(s.irradiance_added, rows, {s.elements, s.element_first}, s.elements.unshot, sources);
+    s.transport_ray_count += aimed;
+    report.ray_count = aimed + uint64_t{s.hits.ray_count} * s.receivers.size();
+  } else {
+    const std::vector<Rgb> sent = s.patches.unshot;
+    gather_patches(s.irradiance_added, {}, rows, sent);
+  }
+  for (size_t p = 0; p < s.patches.size(); ++p) {
+    s.irradiance[p] += s.irradiance_added[p];
+    s.patches.unshot[p] = faces.reflectance[s.patches.face[p]] * s.irradiance_added[p];
+    s.patches.radiosity[p] += s.patches.unshot[p];
+  }
+  for_element_values(s, s.irradiance_added, all_rows(s.elements.size()), [&](uint32_t row, Rgb received) {
+    if (report.pass == 1) received += s.direct[row];
+    s.elements.unshot[row] = faces.reflectance[s.elements.face[row]] * received;
+    s.elements.radiosity[row] += s.elements.unshot[row];
+  });
+  if (report.pass == 1) {
+    s.patches.unshot = find_patch_means(s, s.elements.unshot);
+    s.patches.radiosity = find_patch_means(s, s.elements.radiosity);
+  }
+  for (size_t row = 0; row < s.elements.size(); ++row) {
+    report.added_power +=
+        double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(s.elements.unshot[row]);
+    report.added_largest = std::max(report.added_largest, largest(s.elements.unshot[row]));
+  }
+  report.seconds = watch.read();
+  s.seconds.solve += report.seconds;
+  return s.passes.emplace_back(report);
+}
+
+bool is_converged(const Solution& s, const SolverSettings& settings) {
+  if (s.passes.empty()) return false;
+  const PassReport &first = s.passes.front(), &last = s.passes.back();
+  if (last.added_largest == 0) return true;
+  const auto sum = [](const DRgb& power) { return power.r + power.g + power.b; };
+  return static_cast<double>(last.added_largest) <
+             settings.until * static_cast<double>(first.added_largest) &&
+         sum(last.added_power) < settings.until * sum(first.added_power);
+}
+
+}  // namespace patchlight
