@@ -85,26 +85,35 @@ Rgb mean_of_corners(const std::array<uint32_t, 4>& corner, bool triangle, std::s
 VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames,
                           const FaceLinkTable& links) {
   VertexTable table;
-  table.leaf_vertex.resize(leaves.size());
-  std::vector<uint64_t> keys(leaves.size() * 4);
+  // The names of a leaf's corners are found twice: to keep them would take more memory than all else here.
+  const auto find_keys = [&](size_t row) {
+    const uint32_t face = leaves.face[row];
+    const auto corners = cell_corner_parameters(frames.triangle[face], leaves.cell[row], leaves.level[row]);
+    std::array<uint64_t, 4> keys;
+    for (size_t k = 0; k < 4; ++k) keys[k] = corner_key(face, corners[k], frames, links);
+    return keys;
+  };
+  std::vector<uint64_t> names(leaves.size() * 4);
   for_rows(leaves.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
-      const uint32_t face = leaves.face[row];
-      const auto corners = cell_corner_parameters(frames.triangle[face], leaves.cell[row], leaves.level[row]);
-      for (size_t k = 0; k < 4; ++k) keys[4 * row + k] = corner_key(face, corners[k], frames, links);
+      const auto keys = find_keys(row);
+      std::copy(keys.begin(), keys.end(), names.begin() + static_cast<std::ptrdiff_t>(4 * row));
     }
   });
-  std::vector<uint64_t> names = keys;
   sort_keys(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  names.shrink_to_fit();
   const auto find_vertex = [&](uint64_t key) {
     const auto at = std::lower_bound(names.begin(), names.end(), key);
     assert(at != names.end() && *at == key);
     return static_cast<uint32_t>(at - names.begin());
   };
+  table.leaf_vertex.resize(leaves.size());
   for_rows(leaves.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row)
-      for (size_t k = 0; k < 4; ++k) table.leaf_vertex[row][k] = find_vertex(keys[4 * row + k]);
+    for (size_t row = begin; row < end; ++row) {
+      const auto keys = find_keys(row);
+      for (size_t k = 0; k < 4; ++k) table.leaf_vertex[row][k] = find_vertex(keys[k]);
+    }
   });
 
   // A fine leaf knows which of its corners hangs: where an edge of its parent is whole on the other side.
