@@ -65,10 +65,11 @@ class TreeBuilder : public YAML::EventHandler {
       stop(place, "alias-cycle", "this alias stands inside the node that it names, which would never end");
     const Anchor target = anchors_[anchor];
     alias_nodes_ += target.expanded;
-    if (alias_nodes_ > kAliasNodesMax)
+    if (alias_nodes_ > messages_.limits.alias_values)
       stop(place, "alias-expansion",
-           fmt::format("aliases stand for more than the limit of {} nodes", kAliasNodesMax));
-    if (open_.size() + target.height > kNestingMax) stop_too_deep(place);
+           fmt::format("aliases stand for more than the limit of {}",
+                       limit_text(messages_.limits, &Limits::alias_values)));
+    if (open_.size() + target.height > messages_.limits.nesting) stop_too_deep(place);
     const Node source = tree_.nodes[target.node];
     const uint32_t node = add_node(place, source.kind);
     expanded_ += target.expanded - 1;
@@ -116,7 +117,8 @@ class TreeBuilder : public YAML::EventHandler {
     throw StopReading{};
   }
   [[noreturn]] void stop_too_deep(Place place) {
-    stop(place, "too-deep", fmt::format("nested deeper than the limit of {}", kNestingMax));
+    stop(place, "too-deep",
+         fmt::format("nested deeper than the limit of {}", limit_text(messages_.limits, &Limits::nesting)));
   }
 
  private:
@@ -153,8 +155,9 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   uint32_t add_node(Place place, NodeKind kind) {
-    if (tree_.nodes.size() >= kNodesMax)
-      stop(place, "memory-limit", fmt::format("more than the limit of {} values in one scene", kNodesMax));
+    if (tree_.nodes.size() >= messages_.limits.values)
+      stop(place, "memory-limit",
+           fmt::format("more than the limit of {}", limit_text(messages_.limits, &Limits::values)));
     const auto node = static_cast<uint32_t>(tree_.nodes.size());
     tree_.nodes.push_back({kNone, 0, kNone, place.line, place.column, kind, false});
     ++expanded_;
@@ -175,7 +178,7 @@ class TreeBuilder : public YAML::EventHandler {
   void open_container(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, NodeKind kind) {
     const Place place = place_at(mark);
     if (!tag.empty() && tag != "?" && tag != "!") check_tag(place, tag, {"seq", "map"});
-    if (open_.size() >= kNestingMax) stop_too_deep(place);
+    if (open_.size() >= messages_.limits.nesting) stop_too_deep(place);
     const uint64_t before = expanded_;
     const uint32_t node = add_node(place, kind);
     open_.push_back({node, kNone, anchor, before, 1});

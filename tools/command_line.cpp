@@ -110,6 +110,19 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
   app.add_flag(name, value, help)->disable_flag_override();
 }
 
+// Limits of what a scene may cost, a flag a row of their table.
+void add_limit_flags(CLI::App& app, Options& options) {
+  for (const LimitRow& row : kLimitRows) {
+    const uint64_t usual = Limits{}.*row.limit;
+    add_value(app, std::string(row.flag), "N",
+              fmt::format("{} {}; {} unless given", row.unit, row.description, usual),
+              [&options, row](const std::string& text) {
+                options.load.limits.*row.limit = parse_count(row.flag, text, 1, row.highest);
+              });
+    app.get_option(std::string(row.flag))->group("Limits");
+  }
+}
+
 // Flags that change what a solve takes: render and check share them.
 void add_solver_flags(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "a scene file; - reads standard input")->type_name("")->required();
@@ -122,7 +135,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
       ->type_name("")
       ->allow_extra_args(false);
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
-    options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesMax));
+    options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesFlagMax));
   });
   add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
     options.snapshots_all = text == "all";
@@ -146,6 +159,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
   });
   add_value(app, "--max-patches", "N", "the budget of patches", [&](const std::string& text) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
+    options.load.limits.starting_patches = *options.max_patches;
   });
   add_value(app, "--form-factors", "HOW",
             "cached, or recompute: less memory, more time, the same result; as memory allows unless given",
@@ -155,6 +169,11 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_switch(app, "--quiet", options.quiet, "no progress and no summary");
   add_switch(app, "--json", options.json,
              "messages as a JSON list on standard output, and nothing else there");
+  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more; what is available unless given",
+            [&](const std::string& text) {
+              options.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+            });
+  add_limit_flags(app, options);
   add_value(
       app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {
         options.color = static_cast<ColorChoice>(parse_choice("--color", text, {"auto", "always", "never"}));
@@ -292,7 +311,7 @@ double parse_number(std::string_view flag, std::string_view text, double low, do
 std::vector<uint32_t> parse_snapshots(std::string_view text) {
   std::vector<uint32_t> passes;
   for (const std::string& part : split_list(text))
-    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesMax)));
+    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesFlagMax)));
   std::sort(passes.begin(), passes.end());
   passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
   return passes;

@@ -104,8 +104,10 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
+  plan.limits = options.load.limits;
+  plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
   scene.solver.keep_rows =
-      options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= find_memory_available();
+      options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= plan.bytes_max;
   return plan;
 }
 
@@ -132,27 +134,22 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
 
 void check_limits(const Scene& scene, const Plan& plan) {
   for (const Camera& camera : plan.cameras) {
-    const uint64_t pixels = uint64_t{camera.width} * camera.height;
-    if (camera.width > kImageSideMax || camera.height > kImageSideMax || pixels > kImagePixelsMax)
-      throw UserError("image-too-large",
-                      fmt::format("a picture of {} x {} pixels is asked for; the limits are {} a side and {} "
-                                  "pixels; set size lower",
-                                  camera.width, camera.height, kImageSideMax, kImagePixelsMax),
-                      scene.file);
+    const std::string fault = find_image_fault(plan.limits, camera.width, camera.height);
+    if (!fault.empty()) throw UserError("image-too-large", fault, scene.file);
   }
   const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
   if (patches > scene.solver.patch_count_max)
     throw UserError("too-many-patches",
-                    fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches or "
-                                "patch_size",
+                    fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches "
+                                "(--max-patches) or patch_size",
                                 patches, scene.solver.patch_count_max),
                     scene.file);
   const uint64_t bytes = forecast_run_bytes(scene, plan);
-  const uint64_t available = find_memory_available();
-  if (bytes > available)
+  if (bytes > plan.bytes_max)
     throw UserError("memory-limit",
-                    fmt::format("the run may need {} and {} are available; lower max_patches, rays or size",
-                                format_bytes(bytes), format_bytes(available)),
+                    fmt::format("the run may need {}; the limit is {}, what is available unless --max-memory "
+                                "says another; lower max_patches, rays or size",
+                                format_bytes(bytes), format_bytes(plan.bytes_max)),
                     scene.file);
 }
 

@@ -16,6 +16,8 @@ struct Plan {
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
   std::vector<const Exporter*> exporters;
+  Limits limits;
+  uint64_t bytes_max = 0;  // what the run may hold at its peak
   bool has_pictures() const;
 };
 

@@ -96,8 +96,9 @@ TEST_CASE("what the language leaves out of YAML is refused") {
 }
 
 TEST_CASE("64 levels are read, 65 are not") {
-  CHECK(slug_of(std::string(kNestingMax, '[') + std::string(kNestingMax, ']')) == "");
-  CHECK(slug_of(std::string(kNestingMax + 1, '[') + std::string(kNestingMax + 1, ']')) == "too-deep");
+  CHECK(slug_of(std::string(Limits{}.nesting, '[') + std::string(Limits{}.nesting, ']')) == "");
+  CHECK(slug_of(std::string(Limits{}.nesting + 1, '[') + std::string(Limits{}.nesting + 1, ']')) ==
+        "too-deep");
 }
 
 }  // namespace
