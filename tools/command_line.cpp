@@ -55,6 +55,7 @@ constexpr const char* kBenchHelp =
 Examples:
   patchlight bench                                  kernels, and the scenes of the folder scenes
   patchlight bench room.yaml --only scenes          whole runs of one scene
+  patchlight bench --only loading                   large scenes, beside the YAML parser alone
   patchlight bench --only growth,threads --json b.json
 
 Every figure is a median with its lowest and highest value. Kernels, growth and threads take the first scene.
@@ -206,11 +207,12 @@ void add_render_flags(CLI::App& app, Options& options) {
 void add_bench_flags(CLI::App& app, Options& options) {
   BenchOptions& bench = options.bench;
   app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
-  add_value(app, "--only", "LIST", "sections, of kernels,scenes,growth,threads; the first two unless given",
+  add_value(app, "--only", "LIST",
+            "sections, of kernels,scenes,loading,growth,threads; the first two unless given",
             [&](const std::string& text) {
               bench.sections = split_list(text);
               for (const std::string& section : bench.sections)
-                parse_choice("--only", section, {"kernels", "scenes", "growth", "threads"});
+                parse_choice("--only", section, {"kernels", "scenes", "loading", "growth", "threads"});
             });
   add_value(app, "--json", "FILE", "the result as JSON, too", [&](const std::string& text) {
     if (text.empty()) fail_usage("--json: expected a file");
