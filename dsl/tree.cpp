@@ -5,6 +5,7 @@
 #include "engine/vector.h"
 #include "limits.h"
 #include "yaml_errors.h"
+#include "yaml_stream.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -12,8 +13,6 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <istream>
-#include <streambuf>
 #include <unordered_map>
 
 namespace patchlight {
@@ -23,22 +22,18 @@ constexpr size_t kKeysComparedPairwise = 12;  // more keys than that are compare
 
 struct StopReading {};  // an error that leaves nothing to go on with, already reported
 
-// The text as a stream, without a copy.
-struct TextBuffer : std::streambuf {
-  explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
-};
-
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(Messages& messages, uint32_t file, Tree& tree)
-      : messages_(messages), file_(file), tree_(tree) {}
+  TreeBuilder(Messages& messages, uint32_t file, const YamlStream& stream, Tree& tree)
+      : messages_(messages), file_(file), stream_(stream), tree_(tree) {}
 
   uint32_t root = kNone;
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (documents_++ == 0) return;
     const Place place = place_at(mark);
-    if (messages_.files[file_].text.compare(static_cast<size_t>(mark.pos), 3, "---") == 0)
+    const auto offset = static_cast<size_t>(stream_.true_mark(mark).pos);
+    if (messages_.files[file_].text.compare(offset, 3, "---") == 0)
       stop(place, "multiple-documents",
            "a second document begins here; one file holds one scene: take the '---' out");
     stop(place, "yaml-syntax",
@@ -135,7 +130,8 @@ class TreeBuilder : public YAML::EventHandler {
     uint32_t height = 0;
   };
 
-  Place place_at(const YAML::Mark& mark) const {
+  Place place_at(const YAML::Mark& parser_mark) const {
+    const YAML::Mark mark = stream_.true_mark(parser_mark);
     return {file_, static_cast<uint32_t>(mark.line + 1), static_cast<uint32_t>(mark.column + 1)};
   }
   uint32_t last_child() const { return open_.back().last; }
@@ -235,6 +231,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   Messages& messages_;
   uint32_t file_;
+  const YamlStream& stream_;
   Tree& tree_;
   std::vector<Open> open_;
   std::vector<Anchor> anchors_;
@@ -251,17 +248,16 @@ uint32_t parse_tree(Messages& messages, uint32_t file, Tree& tree) {
   tree.file_first.resize(std::max<size_t>(tree.file_first.size(), file + 1),
                          static_cast<uint32_t>(tree.nodes.size()));
   const size_t errors_before = messages.error_count;
-  TreeBuilder builder(messages, file, tree);
+  YamlStream text(source.text);
+  TreeBuilder builder(messages, file, text, tree);
   try {
-    TextBuffer buffer(source.text);
-    std::istream stream(&buffer);
-    YAML::Parser parser(stream);
+    YAML::Parser parser(text.stream);
     // Two documents at most: the second one is an error, and asking further may never end.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const StopReading&) {
     return kNone;
   } catch (const YAML::Exception& error) {
-    report_yaml_error(messages, file, error);
+    report_yaml_error(messages, file, {text.true_mark(error.mark), error.msg});
     return kNone;
   }
   return messages.error_count == errors_before ? builder.root : kNone;
