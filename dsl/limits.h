@@ -39,7 +39,7 @@ inline constexpr LimitRow kLimitRows[] = {
     {"--max-scene-bytes", &Limits::scene_bytes, uint64_t{1} << 31, "bytes",
      "of a scene file and all that it includes"},
     {"--max-mesh-bytes", &Limits::mesh_bytes, uint64_t{1} << 40, "bytes", "of all OBJ and MTL files"},
-    {"--max-nesting", &Limits::nesting, 256, "levels", "lists and maps in each other"},
+    {"--max-nesting", &Limits::nesting, 256, "levels", "of lists and maps in each other"},
     {"--max-values", &Limits::values, 2'000'000'000, "values", "in all files of a scene"},
     {"--max-alias-values", &Limits::alias_values, 2'000'000'000, "values", "that aliases stand for"},
     {"--max-includes", &Limits::includes, 100'000, "files", "included"},

@@ -113,6 +113,15 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
 
 // Limits of what a scene may cost, a flag a row of their table.
 void add_limit_flags(CLI::App& app, Options& options) {
+  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more; what is available unless given",
+            [&](const std::string& text) {
+              options.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+            });
+  add_value(app, "--max-seconds", "S",
+            fmt::format("refuse a run that will likely take longer; {} unless given", options.max_seconds),
+            [&](const std::string& text) {
+              options.max_seconds = parse_number("--max-seconds", text, 0.001, 1e12);
+            });
   for (const LimitRow& row : kLimitRows) {
     const uint64_t usual = Limits{}.*row.limit;
     add_value(app, std::string(row.flag), "N",
@@ -120,8 +129,9 @@ void add_limit_flags(CLI::App& app, Options& options) {
               [&options, row](const std::string& text) {
                 options.load.limits.*row.limit = parse_count(row.flag, text, 1, row.highest);
               });
-    app.get_option(std::string(row.flag))->group("Limits");
   }
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_name().starts_with("--max-")) app.get_option(option->get_name())->group("Limits");
 }
 
 // Flags that change what a solve takes: render and check share them.
@@ -170,10 +180,6 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_switch(app, "--quiet", options.quiet, "no progress and no summary");
   add_switch(app, "--json", options.json,
              "messages as a JSON list on standard output, and nothing else there");
-  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more; what is available unless given",
-            [&](const std::string& text) {
-              options.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
-            });
   add_limit_flags(app, options);
   add_value(
       app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {

@@ -49,7 +49,7 @@ struct Options {
   std::optional<uint64_t> seed;
   std::optional<uint64_t> max_patches;
   std::optional<uint64_t> max_memory;  // bytes; empty: what is available
-  double max_seconds = 86'400;         // of processors' work, as it is forecast
+  double max_seconds = 86'400;         // that the run will likely take
   std::optional<bool> keep_rows;       // form factors cached or computed again; empty: as memory allows
   std::vector<std::string> formats = {"png"};
   std::string report;  // empty: beside the pictures
