@@ -28,6 +28,7 @@ constexpr std::array kSlugExits = {
     SlugExit{"image-too-large", 5},
     SlugExit{"memory-limit", 5},
     SlugExit{"out-of-memory", 5},
+    SlugExit{"time-limit", 5},
     SlugExit{"too-many-includes", 5},
     SlugExit{"too-many-patches", 5},
     SlugExit{"too-many-polygons", 5},

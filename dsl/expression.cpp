@@ -21,7 +21,7 @@ struct Parser {
   uint32_t node;
   std::string_view text;
   size_t at = 0;
-  int depth = 0;
+  uint64_t depth = 0;
 
   [[noreturn]] void fail(size_t offset, std::string_view slug, std::string message) const {
     Place place = place_of(context.tree, node);
@@ -66,10 +66,9 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string_view take_name(Parser& parser) {
-  const size_t first = parser.at;
-  const auto fits = [&](char c) { return is_letter(c) || (parser.at > first && (is_digit(c) || c == '.')); };
-  while (parser.at < parser.text.size() && fits(parser.text[parser.at])) ++parser.at;
-  return parser.text.substr(first, parser.at - first);
+  const std::string_view name = leading_name(parser.text.substr(parser.at));
+  parser.at += name.size();
+  return name;
 }
 
 double parse_variable(Parser& parser) {
@@ -126,9 +125,11 @@ double parse_primary(Parser& parser) {
 }
 
 double parse_unary(Parser& parser) {
-  if (++parser.depth > kExpressionDepthMax)
-    parser.fail(parser.at, "expression-too-long",
-                fmt::format("nested deeper than the limit of {}", kExpressionDepthMax));
+  const Limits& limits = parser.context.messages.limits;
+  if (++parser.depth > limits.expression_depth)
+    parser.fail(
+        parser.at, "expression-too-long",
+        fmt::format("nested deeper than the limit of {}", limit_text(limits, &Limits::expression_depth)));
   double value = 0;
   if (parser.take('-')) {
     value = -parse_unary(parser);
@@ -169,16 +170,24 @@ double parse_sum(Parser& parser) {
 
 }  // namespace
 
+std::string_view leading_name(std::string_view text) {
+  size_t length = 0;
+  const auto fits = [&](char c) { return is_letter(c) || (length > 0 && (is_digit(c) || c == '.')); };
+  while (length < text.size() && fits(text[length])) ++length;
+  return text.substr(0, length);
+}
+
 bool is_expression(std::string_view text) { return text.starts_with('=') || text.starts_with('$'); }
 
 bool evaluate(const Context& context, uint32_t node, double& value) {
   // Evaluating a variable may not move the tree's text, so the view stays good.
   Parser parser{context, node, text_of(context.tree, node)};
   try {
-    if (parser.text.size() > kExpressionBytesMax)
-      parser.fail(
-          0, "expression-too-long",
-          fmt::format("{} characters, more than the limit of {}", parser.text.size(), kExpressionBytesMax));
+    const Limits& limits = context.messages.limits;
+    if (parser.text.size() > limits.expression_characters)
+      parser.fail(0, "expression-too-long",
+                  fmt::format("{} characters, more than the limit of {}", parser.text.size(),
+                              limit_text(limits, &Limits::expression_characters)));
     if (parser.text.starts_with('=')) {
       ++parser.at;
       value = parse_sum(parser);

@@ -8,6 +8,9 @@ namespace patchlight {
 // True for what the language evaluates: $name, or a text that starts with '='.
 bool is_expression(std::string_view text);
 
+// The variable's name that a text begins with, behind its '$'.
+std::string_view leading_name(std::string_view text);
+
 // Evaluates the scalar at a node: + - * / ^ ( ) min max sin cos tan (degrees) sqrt abs floor pi and $names.
 // False after an error: expression-syntax, expression-too-long, undefined-variable, variable-cycle,
 // non-finite.

@@ -71,9 +71,12 @@ bool flatten(Messages& messages, const Tree& tree, const ObjectTable& objects, c
   return flatten_mesh_face(corners, flat) != MeshFace::kNoArea;
 }
 
+// Ends early, with an error, where there are more faces than patches to start with are allowed.
 CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& materials,
-                 const ObjectTable& objects, const OutlineTable& outlines, Sums& sums) {
+                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
+                 Sums& sums) {
   CutTable table;
+  uint64_t count = 0;  // faces, those of second sides included
   FlatPolygon flat;
   CutFaces cut;
   for (uint32_t p = 0; p < outlines.size(); ++p) {
@@ -98,6 +101,14 @@ CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& mate
     table.point_first.push_back(static_cast<uint32_t>(table.points.size()));
     table.face_first.push_back(static_cast<uint32_t>(table.faces.size()));
     table.normal.push_back(normal);
+    count += cut.faces.size() * (objects.two_sided[outlines.object[p]] ? 2 : 1);
+    if (count > start_patches_max) {
+      add_error(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]), "too-many-patches",
+                fmt::format("'{}' takes the scene above the limit of {} starting patches (--max-patches "
+                            "raises it)",
+                            escape_text(outlines.id[p]), start_patches_max));
+      break;
+    }
   }
   return table;
 }
@@ -210,7 +221,8 @@ void check_start_patches(Messages& messages, const Tree& tree, const CutTable& t
     if (__builtin_mul_overflow(each, faces * sides, &patches) || __builtin_add_overflow(sum, patches, &sum) ||
         sum > limit) {
       add_error(messages, place_of(tree, objects.subdivide_node[object]), "too-many-patches",
-                fmt::format("'subdivide: {}' takes the scene above the limit of {} starting patches",
+                fmt::format("'subdivide: {}' takes the scene above the limit of {} starting patches "
+                            "(--max-patches raises it)",
                             objects.subdivide[object], limit));
       return;
     }
@@ -223,7 +235,7 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
                 Scene& scene) {
   Sums sums;
-  const CutTable table = cut_all(messages, tree, materials, objects, outlines, sums);
+  const CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
   if (messages.error_count > 0 || sums.area == 0) return;
   check_start_patches(messages, tree, table, objects, outlines, start_patches_max);
   if (sums.largest > kSizeRatioMax * sums.smallest)

@@ -34,7 +34,10 @@ void copy_ring(Messages& messages, const Tree& tree, const OutlineTable& outline
   for (uint32_t k = begin; k < end; ++k) {
     const DVec3 point = outlines.corners[k];
     if (polygon.points.size() > first && same(point, polygon.points.back())) {
-      add_warning(messages, corner_place(tree, outlines, ring, k - begin), "repeated-vertex",
+      // To find a corner's place is to walk there.
+      const bool wanted = wants_warnings(messages, "repeated-vertex");
+      add_warning(messages, wanted ? corner_place(tree, outlines, ring, k - begin) : Place{},
+                  "repeated-vertex",
                   fmt::format("corner {} of {} repeats the one before; dropped", k - begin + 1, end - begin));
       continue;
     }
@@ -145,6 +148,12 @@ bool report(const Subject& subject, Place place, std::string_view slug, std::str
 // Checks the coordinates and copies the rings. False after coordinate-too-large or zero-area.
 bool copy_rings(Subject& subject, FlatPolygon& polygon) {
   const OutlineTable& outlines = subject.outlines;
+  const Limits& limits = subject.messages.limits;
+  const uint32_t count = outlines.ring_first[subject.ring_end] - outlines.ring_first[subject.ring_begin];
+  if (count > limits.corners)
+    return report(subject, subject.ring_place(0), "too-many-polygons",
+                  fmt::format("{} corners, those of its holes included, more than the limit of {}", count,
+                              limit_text(limits, &Limits::corners)));
   DVec3 low(outlines.corners[outlines.ring_first[subject.ring_begin]]), high = low;
   for (uint32_t ring = subject.ring_begin; ring < subject.ring_end; ++ring)
     for (uint32_t k = outlines.ring_first[ring]; k < outlines.ring_first[ring + 1]; ++k) {

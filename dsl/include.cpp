@@ -29,7 +29,8 @@ struct Reader {
 // Reads and parses a file; kNone after errors.
 uint32_t parse_file(Reader& reader, uint32_t node, const fs::path& path) {
   Messages& messages = reader.context.messages;
-  const uint32_t file = add_scene_file(messages, place_of(reader.tree, node), path, kSceneBytesMax);
+  const uint32_t file =
+      add_scene_file(messages, place_of(reader.tree, node), path, &Limits::scene_bytes, messages.scene_bytes);
   if (file == kNone) return kNone;
   if (!check_source(messages, file)) return kNone;
   const uint32_t root = parse_tree(messages, file, reader.tree);
@@ -79,9 +80,13 @@ void read_entry(Reader& reader, uint32_t entry, const std::string& outer) {
     return fail("include-cycle",
                 fmt::format("files include each other: {}{}", chain, escape_text(path.filename().string())));
   }
-  if (reader.read.size() >= kIncludesMax || reader.chain.size() > kIncludeDepthMax)
+  const Limits& limits = reader.context.messages.limits;
+  if (reader.read.size() >= limits.includes)
     return fail("too-many-includes",
-                fmt::format("more than the limit of {} files, {} deep", kIncludesMax, kIncludeDepthMax));
+                fmt::format("more than the limit of {}", limit_text(limits, &Limits::includes)));
+  if (reader.chain.size() > limits.include_depth)
+    return fail("too-many-includes", fmt::format("files include files deeper than the limit of {}",
+                                                 limit_text(limits, &Limits::include_depth)));
   if (!reader.read.emplace(path.string(), prefix).second) return;
   const uint32_t root = parse_file(reader, place, path);
   if (root == kNone) return;

@@ -124,6 +124,7 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   Scene scene;
   scene.file = messages.files[0].name;
   if (!check_source(messages, 0)) throw_errors(messages);
+  messages.scene_bytes = messages.files[0].text.size();
   Tree tree;
   const uint32_t root = parse_tree(messages, 0, tree);
   throw_errors(messages);
@@ -145,10 +146,10 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   read_contents(context, files, options, objects);
   read_settings(context, map, scene);
   check_not_empty(context, map, objects);
-  if (objects.outlines.size() <= kPolygonsMax) {
+  if (!objects.is_full) {
     check_ids(context, objects.objects, objects.outlines);
     make_faces(messages, tree, objects.materials, objects.objects, objects.outlines,
-               std::max<uint64_t>(kStartPatchesMax, scene.solver.patch_count_max), scene);
+               std::max(options.limits.starting_patches, scene.solver.patch_count_max), scene);
   }
   throw_errors(messages);
   if (const uint32_t list = value_of(map, "expect").node; list != kNone)
@@ -165,13 +166,17 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
 
 Scene load_scene(const std::string& path, std::vector<Diagnostic>& warnings, const LoadOptions& options) {
   Messages messages;
-  messages.files.push_back({path == "-" ? "<stdin>" : path, read_bytes(path)});
+  messages.limits = options.limits;
+  messages.files.push_back(
+      {path == "-" ? "<stdin>" : path,
+       read_bytes(path, options.limits.scene_bytes, limit_text(options.limits, &Limits::scene_bytes))});
   return compile(messages, path == "-" ? "." : path, options, warnings);
 }
 
 Scene load_scene_text(std::string_view text, const std::string& name, std::vector<Diagnostic>& warnings,
                       const LoadOptions& options) {
   Messages messages;
+  messages.limits = options.limits;
   messages.files.push_back({name, std::string(text)});
   return compile(messages, name, options, warnings);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnostics.h"
+#include "limits.h"
 #include "scene.h"
 
 #include <string>
@@ -9,10 +10,11 @@
 
 namespace patchlight {
 
-// What the command line changes in a scene, in the order in which it was given.
+// What the command line changes in a scene, in the order in which it was given, and what it may cost.
 struct LoadOptions {
   std::vector<std::string> definitions;  // "w=8": the value of a variable (-D)
   std::vector<std::string> overrides;    // "solver.passes=4": any value of the file, or a new one (--set)
+  Limits limits = {};
 };
 
 // Reads, checks and compiles one scene file, with its includes; `-` reads standard input. Warnings are

@@ -72,7 +72,7 @@ uint32_t load_mesh(const Context& context, uint32_t node, MeshFiles& meshes) {
       meshes.by_path.emplace(path.string(), static_cast<uint32_t>(meshes.files.size()));
   if (!is_new) return row->second;
   MeshFile& mesh = meshes.files.emplace_back();
-  mesh.file = add_scene_file(messages, place, path, kMeshBytesMax);
+  mesh.file = add_scene_file(messages, place, path, &Limits::mesh_bytes, messages.mesh_bytes);
   if (mesh.file == kNone || !read_obj(messages, mesh.file, mesh.obj)) return row->second;
   const size_t errors_before = messages.error_count;
   check_faces(messages, mesh);

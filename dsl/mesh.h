@@ -6,8 +6,10 @@
 #include "obj.h"
 
 #include <deque>
+#include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace patchlight {
@@ -28,6 +30,9 @@ struct MeshFiles {
   std::deque<MeshFile> files;
   std::unordered_map<std::string, uint32_t> by_path;  // canonical
   std::unordered_map<uint32_t, uint32_t> by_node;     // of the path in the scene's tree: for copies
+  // Rows of MaterialTable for the materials of a mesh, by the node of its path and the object's material: for
+  // copies.
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> material_rows;
 };
 
 // The file that a scalar names, relative to the file that it stands in. Faces without area are emptied, with

@@ -53,7 +53,8 @@ bool read_libraries(Messages& messages, MeshFile& mesh) {
             fmt::format("{}: its materials get a reflectance of {}", found.message, kDefaultReflectance));
         continue;
       }
-      const uint32_t file = add_scene_file(messages, place, found.path, kMeshBytesMax);
+      const uint32_t file =
+          add_scene_file(messages, place, found.path, &Limits::mesh_bytes, messages.mesh_bytes);
       good = file != kNone && read_mtl(messages, file, mesh.mtl) && good;
     }
   }

@@ -60,6 +60,13 @@ Diagnostic make_diagnostic(const Messages& messages, Place place, std::string_vi
   return diagnostic;
 }
 
+// The row of a slug among those that were warned of, or the end.
+template <class Counts>
+auto find_count(Counts& counts, std::string_view slug) {
+  return std::find_if(counts.begin(), counts.end(),
+                      [&](const Messages::Count& row) { return row.slug == slug; });
+}
+
 bool earlier(const Diagnostic& a, const Diagnostic& b) {
   return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
@@ -82,16 +89,22 @@ void add_command_line_error(Messages& messages, std::string_view slug, std::stri
 }
 
 void add_warning(Messages& messages, Place place, std::string_view slug, std::string message) {
-  auto count = std::find_if(messages.warning_counts.begin(), messages.warning_counts.end(),
-                            [&](const Messages::Count& row) { return row.slug == slug; });
-  if (count == messages.warning_counts.end())
-    count = messages.warning_counts.insert(count, Messages::Count{std::string(slug), 0});
-  if (count->count++ < kWarningsShown)
+  if (wants_warnings(messages, slug))
     messages.warnings.push_back(
         make_diagnostic(messages, place, slug, std::move(message), Severity::kWarning));
+  const auto row = find_count(messages.warning_counts, slug);
+  if (row == messages.warning_counts.end())
+    messages.warning_counts.push_back({std::string(slug), 1});
+  else
+    ++row->count;
 }
 
 bool wants_errors(const Messages& messages) { return messages.errors.size() < kErrorsShown; }
+
+bool wants_warnings(const Messages& messages, std::string_view slug) {
+  const auto row = find_count(messages.warning_counts, slug);
+  return row == messages.warning_counts.end() || row->count < kWarningsShown;
+}
 
 void throw_errors(Messages& messages) {
   if (messages.errors.empty()) return;

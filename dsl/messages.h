@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnostics.h"
+#include "limits.h"
 
 #include <cstdint>
 #include <deque>
@@ -26,13 +27,15 @@ struct Place {
   uint32_t column = 0;
 };
 
-// The files that were read and what is to be said of them. Errors beyond kErrorsShown and warnings of one
-// slug beyond kWarningsShown are only counted.
+// The files that were read, how much may be read, and what is to be said of it. Errors beyond kErrorsShown
+// and warnings of one slug beyond kWarningsShown are only counted.
 struct Messages {
   struct Count {
     std::string slug;
     size_t count = 0;
   };
+  Limits limits = {};
+  uint64_t scene_bytes = 0, mesh_bytes = 0;  // read so far, of the limits of these names
   std::deque<SourceFile> files;
   std::vector<Diagnostic> errors;
   size_t error_count = 0;
@@ -47,6 +50,9 @@ void add_warning(Messages& messages, Place place, std::string_view slug, std::st
 
 // True while errors are kept: costly hints need not be worked out beyond that.
 bool wants_errors(const Messages& messages);
+
+// True while warnings of this slug are kept.
+bool wants_warnings(const Messages& messages, std::string_view slug);
 
 // Throws UserError with everything collected, in the order of the files; does nothing without errors.
 void throw_errors(Messages& messages);

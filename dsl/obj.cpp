@@ -24,7 +24,8 @@ struct Reader {
   Messages& messages;
   StatementReader statements;
   ObjMesh& mesh;
-  uint32_t material = kNone;   // that usemtl chose last
+  std::pair<const std::string, uint32_t>* material = nullptr;  // that usemtl chose last: its name and row
+  uint32_t material_line = 0;
   bool reaches_ahead = false;  // some index names a vertex that had not come yet
 };
 
@@ -63,6 +64,18 @@ bool take_corner(std::string_view word, int64_t& index) {
   return text.empty();
 }
 
+// The row of the material that faces have here, made for the first of them; kNone for no material.
+uint32_t row_of_material(Reader& reader) {
+  if (!reader.material) return kNone;
+  auto& [name, row] = *reader.material;
+  if (row == kNone) {
+    row = static_cast<uint32_t>(reader.mesh.material.size());
+    reader.mesh.material.push_back(name);
+    reader.mesh.material_line.push_back(reader.material_line);
+  }
+  return row;
+}
+
 void read_face(Reader& reader) {
   ObjMesh& mesh = reader.mesh;
   const auto vertices = static_cast<int64_t>(mesh.position.size());
@@ -88,32 +101,27 @@ void read_face(Reader& reader) {
   }
   const size_t count = mesh.corner.size() - first;
   if (good && count == 0) refuse({}, "a face without corners");
-  if (count > kCornersMax)
+  const Limits& limits = reader.messages.limits;
+  if (count > limits.corners)
     report(reader, {}, "too-many-polygons",
-           fmt::format("a face has {} corners, more than the limit of {}", count, kCornersMax));
+           fmt::format("a face has {} corners, more than the limit of {}", count,
+                       limit_text(limits, &Limits::corners)));
   mesh.face_first.push_back(static_cast<uint32_t>(mesh.corner.size()));
   mesh.face_line.push_back(reader.statements.line);
-  mesh.face_material.push_back(reader.material);
+  mesh.face_material.push_back(row_of_material(reader));
 }
 
 void read_material(Reader& reader) {
   const std::string name(rest_of(reader.statements));
-  if (name.empty()) {
-    reader.material = kNone;
-    return;
-  }
-  const auto [row, is_new] =
-      reader.mesh.material_row.emplace(name, static_cast<uint32_t>(reader.mesh.material.size()));
-  if (is_new) {
-    reader.mesh.material.push_back(name);
-    reader.mesh.material_line.push_back(reader.statements.line);
-  }
-  reader.material = row->second;
+  reader.material = name.empty() ? nullptr : &*reader.mesh.material_row.emplace(name, kNone).first;
+  reader.material_line = reader.statements.line;
 }
+
+bool is_face(std::string_view keyword) { return keyword == "f" || keyword == "fo"; }
 
 void read_statement(Reader& reader, std::string_view keyword) {
   if (keyword == "v") return read_vertex(reader);
-  if (keyword == "f" || keyword == "fo") return read_face(reader);
+  if (is_face(keyword)) return read_face(reader);
   if (keyword == "usemtl") return read_material(reader);
   if (keyword == "mtllib") {
     reader.mesh.library.emplace_back(rest_of(reader.statements));
@@ -152,9 +160,9 @@ bool read_obj(Messages& messages, uint32_t file, ObjMesh& mesh) {
   std::string_view keyword;
   // A file that is no OBJ at all would have an error in every line.
   while (errors() < kErrorsShown && next_statement(reader.statements, keyword)) {
-    if (mesh.face_count() >= kPolygonsMax && keyword == "f") {
+    if (mesh.face_count() >= messages.limits.polygons && is_face(keyword)) {
       report(reader, keyword, "too-many-polygons",
-             fmt::format("more than the limit of {} polygons", kPolygonsMax));
+             fmt::format("more than the limit of {}", limit_text(messages.limits, &Limits::polygons)));
       return false;
     }
     read_statement(reader, keyword);

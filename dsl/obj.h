@@ -17,9 +17,9 @@ struct ObjMesh {
   std::vector<uint32_t> face_first{0};  // faces + 1; a face that was dropped has no corners
   std::vector<uint32_t> face_line;      // 1-based
   std::vector<uint32_t> face_material;  // row of `material`, or kNone
-  std::vector<std::string> material;    // names behind usemtl, each once
-  std::vector<uint32_t> material_line;  // 1-based, of the first usemtl
-  std::unordered_map<std::string, uint32_t> material_row;  // of a name
+  std::vector<std::string> material;    // names behind usemtl that faces have, each once
+  std::vector<uint32_t> material_line;  // 1-based, of the usemtl before the first such face
+  std::unordered_map<std::string, uint32_t> material_row;  // of a name; kNone: no face has it
   std::vector<std::string> library;                        // what stands behind each mtllib
   std::vector<uint32_t> library_line;
   size_t face_count() const { return face_line.size(); }

@@ -57,10 +57,28 @@ uint32_t add_object(uint32_t node, const Inherited& own, bool is_mesh, ObjectTab
   return static_cast<uint32_t>(objects.size() - 1);
 }
 
+// Objects that hold no polygons cost time, and polygons of many corners memory.
+constexpr uint64_t kObjectsPerPolygon = 4, kCornersPerPolygon = 8;
+
+// Reports the first of too many polygons, and then no more.
+void check_counts(const Context& context, uint32_t node, SceneObjects& scene) {
+  const uint64_t polygons = context.messages.limits.polygons;
+  std::string_view what;
+  if (scene.objects.size() > kObjectsPerPolygon * polygons) what = ", by the number of objects";
+  if (scene.outlines.corners.size() > kCornersPerPolygon * polygons) what = ", by the number of corners";
+  const bool plain = scene.outlines.size() > polygons;
+  if (scene.is_full || (what.empty() && !plain)) return;
+  scene.is_full = true;
+  add_error(context.messages, place_of(context.tree, node), "too-many-polygons",
+            fmt::format("more than the limit of {}{}", limit_text(context.messages.limits, &Limits::polygons),
+                        plain ? "" : what));
+}
+
 }  // namespace
 
 void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
                  SceneObjects& scene) {
+  if (scene.is_full) return;
   const MapValues map = read_map(context, node, object_keys());
   if (!map.good) return;
   const ShapeRow* shape = find_shape(context, map);
@@ -88,9 +106,7 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   const size_t first = scene.outlines.size();
   shape->build({context, map, value_of(map, shape->name).node, id, own, row, scene});
   if (moved) apply_transform(transform, node, first, scene.outlines);
-  if (scene.outlines.size() > kPolygonsMax)
-    add_error(context.messages, place_of(context.tree, node), "too-many-polygons",
-              fmt::format("more than the limit of {} polygons", kPolygonsMax));
+  check_counts(context, node, scene);
 }
 
 void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
@@ -99,7 +115,7 @@ void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
   for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next) {
     read_object(context, child, {context.prefix, fmt::format("{}object{}", context.prefix, ++number)},
                 Inherited{}, scene);
-    if (scene.outlines.size() > kPolygonsMax) return;
+    if (scene.is_full) return;
   }
 }
 

@@ -24,6 +24,8 @@ struct SceneObjects {
   MeshFiles meshes;
   ObjectTable objects;
   OutlineTable outlines;
+  uint64_t reads = 0;    // values that repeats read, each time anew
+  bool is_full = false;  // there are more than the limits allow: it was told, and no more are added
 };
 
 // Reads all objects of a list, in the order of the file; ids get the context's prefix. Errors: missing-key,

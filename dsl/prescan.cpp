@@ -122,9 +122,10 @@ void scan_close(Scan& scan) {
 }
 
 void scan_open(Scan& scan) {
-  if (scan.brackets.size() >= kNestingMax)
+  const Limits& limits = scan.messages.limits;
+  if (scan.brackets.size() >= limits.nesting)
     return scan.fail(scan.place(), "too-deep",
-                     fmt::format("nested deeper than the limit of {}", kNestingMax));
+                     fmt::format("nested deeper than the limit of {}", limit_text(limits, &Limits::nesting)));
   scan.brackets.push_back({scan.peek(), scan.place()});
   ++scan.at;
 }

@@ -31,6 +31,9 @@ bool folds_back(const Edge& first, const Edge& second) {
 
 bool touch(const Edge& e, const Edge& f) {
   const double e_a = turn(f.a, f.b, e.a), e_b = turn(f.a, f.b, e.b);
+  // No part of an edge is nearer to the other's line than its ends, where both lie on one side. Edges are not
+  // longer than 1.
+  if (std::min(e_a, e_b) > kContact || std::max(e_a, e_b) < -kContact) return false;
   const double f_a = turn(e.a, e.b, f.a), f_b = turn(e.a, e.b, f.b);
   if (((e_a > 0) != (e_b > 0)) && ((f_a > 0) != (f_b > 0)) && e_a != 0 && e_b != 0 && f_a != 0 && f_b != 0)
     return true;

@@ -51,11 +51,15 @@ fs::path folder_of(const Messages& messages, Place place) {
   return folder.empty() ? messages.files[0].folder : folder;
 }
 
-uint32_t add_scene_file(Messages& messages, Place place, const fs::path& path, size_t bytes_max) {
+uint32_t add_scene_file(Messages& messages, Place place, const fs::path& path, uint64_t Limits::*limit,
+                        uint64_t& bytes_read) {
+  const uint64_t bytes_max = messages.limits.*limit;
   try {
     SourceFile file;
     file.name = fs::relative(path, messages.files[0].folder).string();
-    file.text = read_bytes(path.string(), bytes_max);
+    file.text = read_bytes(path.string(), bytes_max - std::min(bytes_read, bytes_max),
+                           limit_text(messages.limits, limit));
+    bytes_read += file.text.size();
     file.folder = path.parent_path().string();
     messages.files.push_back(std::move(file));
   } catch (const UserError& error) {

@@ -29,8 +29,10 @@ std::filesystem::path find_scene_file(Messages& messages, Place place, const std
 // The folder of the file at `place`, canonical: the scene's own for what the command line gives.
 std::filesystem::path folder_of(const Messages& messages, Place place);
 
-// Reads a file that find_scene_file found, its text unchecked, and adds it to messages.files. Returns its row
-// there, or kNone after an error at `place`: cannot-open, not-a-regular-file, file-too-large.
-uint32_t add_scene_file(Messages& messages, Place place, const std::filesystem::path& path, size_t bytes_max);
+// Reads a file that find_scene_file found, its text unchecked, and adds it to messages.files. `limit` bounds
+// the bytes of all files of its kind, `bytes_read` counts them. Returns the file's row, or kNone after an
+// error at `place`: cannot-open, not-a-regular-file, file-too-large.
+uint32_t add_scene_file(Messages& messages, Place place, const std::filesystem::path& path,
+                        uint64_t Limits::*limit, uint64_t& bytes_read);
 
 }  // namespace patchlight

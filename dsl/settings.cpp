@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace patchlight {
 namespace {
@@ -39,11 +40,10 @@ bool check_camera(const Context& context, const MapValues& map, const Camera& ca
     return false;
   }
   const int64_t* size = value_of(map, "size").integer;
-  if (std::max(size[0], size[1]) > kImageSideMax ||
-      static_cast<uint64_t>(size[0] * size[1]) > kImagePixelsMax) {
-    report(context, value_of(map, "size").node, "image-too-large",
-           fmt::format("a picture of {} x {} is above the limit of {} a side and {} Mpx", size[0], size[1],
-                       kImageSideMax, kImagePixelsMax / 1'000'000));
+  const std::string fault = find_image_fault(context.messages.limits, static_cast<uint64_t>(size[0]),
+                                             static_cast<uint64_t>(size[1]));
+  if (!fault.empty()) {
+    report(context, value_of(map, "size").node, "image-too-large", fault);
     return false;
   }
   return true;
@@ -86,6 +86,7 @@ void read_camera(const Context& context, uint32_t node, std::vector<Camera>& cam
 
 void read_cameras(const Context& context, uint32_t list, std::vector<Camera>& cameras) {
   const bool several = context.tree.nodes[list].count > 1;
+  std::unordered_set<std::string> names;
   for (uint32_t child = context.tree.nodes[list].first; child != kNone;
        child = context.tree.nodes[child].next) {
     const size_t before = cameras.size();
@@ -94,9 +95,8 @@ void read_cameras(const Context& context, uint32_t list, std::vector<Camera>& ca
     const std::string& name = cameras.back().name;
     if (name.empty() && several)
       report(context, child, "missing-key", "where there are several cameras, each needs a name");
-    for (size_t k = 0; k < before; ++k)
-      if (!name.empty() && cameras[k].name == name)
-        report(context, child, "duplicate-id", fmt::format("two cameras are called '{}'", name));
+    if (!name.empty() && !names.insert(name).second)
+      report(context, child, "duplicate-id", fmt::format("two cameras are called '{}'", name));
   }
 }
 

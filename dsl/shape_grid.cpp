@@ -35,12 +35,13 @@ void build_grid(const ShapeInput& input) {
   if (!require_material(input) || !map.good || !read_quad(input, map, quad)) return;
   const int64_t nx = value_of(map, "cells").integer[0], ny = value_of(map, "cells").integer[1];
   uint64_t count = 0;
-  if (__builtin_mul_overflow(static_cast<uint64_t>(nx * ny), input.context.copies, &count) ||
-      count > kPolygonsMax) {
+  const Limits& limits = input.context.messages.limits;
+  if (__builtin_mul_overflow(static_cast<uint64_t>(nx), static_cast<uint64_t>(ny), &count) ||
+      __builtin_mul_overflow(count, input.context.copies, &count) || count > limits.polygons) {
     add_error(input.context.messages, place_of(input.context.tree, value_of(map, "cells").node),
               "too-many-polygons",
-              fmt::format("a grid of {} x {} takes the scene above the limit of {} polygons", nx, ny,
-                          kPolygonsMax));
+              fmt::format("a grid of {} x {} takes the scene above the limit of {}", nx, ny,
+                          limit_text(limits, &Limits::polygons)));
     return;
   }
   // A point of the lattice is worked out in one way, so that neighbours share its bits.

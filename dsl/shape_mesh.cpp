@@ -20,7 +20,8 @@ bool read_mesh_materials(const ShapeInput& input, uint32_t node, const MeshFile&
     const std::string name(text_of(tree, key));
     const auto found = obj.material_row.find(name);
     if (found == obj.material_row.end()) {
-      const std::string near = did_you_mean(name, obj.material);
+      const std::string near =
+          wants_errors(input.context.messages) ? did_you_mean(name, obj.material) : std::string{};
       add_error(input.context.messages, place_of(tree, key), "unknown-material",
                 fmt::format("the OBJ file has no material '{}'{}", escape_text(name),
                             obj.material.empty() ? ": its faces name none; give the mesh a `material`"
@@ -31,7 +32,7 @@ bool read_mesh_materials(const ShapeInput& input, uint32_t node, const MeshFile&
     const uint32_t row = find_material(input.context, value, input.scene.materials);
     if (row == kNone)
       good = false;
-    else if (found != obj.material_row.end())
+    else if (found != obj.material_row.end() && found->second != kNone)
       rows[found->second] = row;
     key = tree.nodes[value].next;
   }
@@ -41,6 +42,7 @@ bool read_mesh_materials(const ShapeInput& input, uint32_t node, const MeshFile&
 // A row of MaterialTable for each material of the OBJ file and, last, for faces that name none: from
 // `materials`, else `material`, else the MTL file. False after an error.
 bool choose_materials(const ShapeInput& input, MeshFile& mesh, std::vector<uint32_t>& rows) {
+  if (!rows.empty()) return true;  // by a copy of this object
   rows.assign(mesh.obj.material.size() + 1, kNone);
   const uint32_t map = value_of(input.object, "materials").node;
   if (map != kNone && !read_mesh_materials(input, map, mesh, rows)) return false;
@@ -61,15 +63,16 @@ void build_mesh(const ShapeInput& input) {
   MeshFile* mesh = find_mesh(input.context, input.node, input.scene.meshes);
   if (!mesh) return;
   const ObjMesh& obj = mesh->obj;
-  std::vector<uint32_t> material;
-  if (!choose_materials(input, *mesh, material)) return;
+  const Limits& limits = input.context.messages.limits;
   uint64_t count = 0;
-  if (__builtin_mul_overflow(obj.face_count(), input.context.copies, &count) || count > kPolygonsMax) {
+  if (__builtin_mul_overflow(obj.face_count(), input.context.copies, &count) || count > limits.polygons) {
     add_error(input.context.messages, place_of(input.context.tree, input.node), "too-many-polygons",
-              fmt::format("{} faces, {} times, take the scene above the limit of {} polygons",
-                          obj.face_count(), input.context.copies, kPolygonsMax));
+              fmt::format("{} faces, {} times, take the scene above the limit of {}", obj.face_count(),
+                          input.context.copies, limit_text(limits, &Limits::polygons)));
     return;
   }
+  std::vector<uint32_t>& material = input.scene.meshes.material_rows[{input.node, input.own.material}];
+  if (!choose_materials(input, *mesh, material)) return;
   std::vector<DVec3> corners;
   for (size_t f = 0; f < obj.face_count(); ++f) {
     corners.clear();

@@ -19,6 +19,8 @@ constexpr KeyRow kRows[] = {
     {"of", kMap, true, "", 0, 0, "", "object", "The object; $i ($j, $k) in it is the copy's index, from 0."},
 };
 
+constexpr uint64_t kReadsPerPolygon = 64;  // of the limit: a copy is read anew, however little it makes
+
 struct Counts {
   int64_t each[3] = {1, 1, 1};
   bool is_list = false;
@@ -51,16 +53,41 @@ bool read_counts(const ShapeInput& input, uint32_t node, Counts& counts) {
   return true;
 }
 
-// The copies that this repeat stands for within those around it. False after too-many-polygons: nothing is
-// expanded before that is known.
-bool count_copies(const ShapeInput& input, uint32_t node, const Counts& counts, uint64_t& copies) {
+// What reading a node takes: the values in it, aliases followed, and sixteen bytes of text count as one more.
+uint64_t count_reads(const Tree& tree, uint32_t node) {
+  const Node& row = tree.nodes[node];
+  if (row.kind == NodeKind::kScalar) return 1 + row.count / 16;
+  uint64_t count = 1;
+  if (row.kind == NodeKind::kNull) return count;
+  for (uint32_t child = row.first; child != kNone; child = tree.nodes[child].next)
+    count += count_reads(tree, child);
+  return count;
+}
+
+// The copies of node `of` that this repeat stands for within those around it. False after too-many-polygons:
+// nothing is expanded before that is known.
+bool count_copies(const ShapeInput& input, uint32_t node, const Counts& counts, uint32_t of,
+                  uint64_t& copies) {
   copies = input.context.copies;
-  bool too_many = false;
+  bool overflow = false;
   for (const int64_t count : counts.each)
-    too_many = __builtin_mul_overflow(copies, static_cast<uint64_t>(count), &copies) || too_many;
-  if (!too_many && copies <= kPolygonsMax) return true;
+    overflow = __builtin_mul_overflow(copies, static_cast<uint64_t>(count), &copies) || overflow;
+  const Limits& limits = input.context.messages.limits;
+  const uint64_t reads = count_reads(input.context.tree, of), reads_max = limits.polygons * kReadsPerPolygon;
+  const bool too_many = overflow || copies > limits.polygons;
+  // Here, and with all that was read before.
+  const uint64_t reads_here = too_many ? 0 : copies / input.context.copies * reads;
+  const bool too_long =
+      !too_many && (reads > reads_max / copies || reads_here > reads_max - input.scene.reads);
+  if (!too_many && !too_long) {
+    input.scene.reads += reads_here;
+    return true;
+  }
   add_error(input.context.messages, place_of(input.context.tree, node), "too-many-polygons",
-            fmt::format("this makes more copies than the limit of {} polygons", kPolygonsMax));
+            fmt::format("this makes {} copies{}, more than the limit of {}",
+                        overflow ? "more than 2^64" : fmt::format("{}", copies),
+                        too_long ? fmt::format(" of {} values each", reads) : "",
+                        limit_text(limits, &Limits::polygons)));
   return false;
 }
 
@@ -82,7 +109,8 @@ void build_repeat(const ShapeInput& input) {
   if (counts.is_list && list != kNone)
     return report("ambiguous-shape", "with 'transform', 'count' is one number");
   Context inner = input.context;
-  if (!count_copies(input, value_of(map, "count").node, counts, inner.copies)) return;
+  const uint32_t of = value_of(map, "of").node;
+  if (!count_copies(input, value_of(map, "count").node, counts, of, inner.copies)) return;
   Transform each, moved;
   if (list != kNone && !read_transform(input.context, list, each)) return;
   const DVec3 step = vec3_of(value_of(map, "step"));
@@ -97,9 +125,9 @@ void build_repeat(const ShapeInput& input) {
         const std::string id =
             counts.is_list ? fmt::format("{}[{},{},{}]", in.id, i, j, k) : fmt::format("{}[{}]", in.id, i);
         const size_t first = in.scene.outlines.size();
-        read_object(inner, value_of(map, "of").node, {id + ".", id}, in.own, in.scene);
+        read_object(inner, of, {id + ".", id}, in.own, in.scene);
         // One copy that is wrong is like all others.
-        if (inner.messages.error_count > errors_before || in.scene.outlines.size() > kPolygonsMax) return;
+        if (inner.messages.error_count > errors_before) return;
         if (list == kNone) moved.shift = step * (counts.is_list ? index : DVec3(index.x));
         if (i + j + k > 0) apply_transform(moved, input.node, first, in.scene.outlines);
         if (list != kNone) moved = combine(moved, each);

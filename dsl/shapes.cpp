@@ -54,9 +54,11 @@ bool read_corners(const Context& context, uint32_t node, std::string_view what, 
               fmt::format("{} needs at least 3 corners, got {}", what, count));
     return false;
   }
-  if (count > kCornersMax) {
+  const Limits& limits = context.messages.limits;
+  if (count > limits.corners) {
     add_error(context.messages, place_of(tree, node), "too-many-polygons",
-              fmt::format("{} has {} corners, more than the limit of {}", what, count, kCornersMax));
+              fmt::format("{} has {} corners, more than the limit of {}", what, count,
+                          limit_text(limits, &Limits::corners)));
     return false;
   }
   bool good = true;

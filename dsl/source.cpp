@@ -16,8 +16,8 @@
 namespace patchlight {
 namespace {
 
-[[noreturn]] void throw_too_large(const std::string& name, size_t bytes_max) {
-  throw UserError("file-too-large", fmt::format("more than the limit of {} MiB", bytes_max >> 20), name);
+[[noreturn]] void throw_too_large(const std::string& name, std::string_view limit) {
+  throw UserError("file-too-large", fmt::format("more than the limit of {}", limit), name);
 }
 
 Place place_of(const Messages& messages, uint32_t file, size_t offset) {
@@ -74,7 +74,7 @@ bool check_encoding(Messages& messages, uint32_t file) {
 
 }  // namespace
 
-std::string read_bytes(const std::string& path, size_t bytes_max) {
+std::string read_bytes(const std::string& path, uint64_t bytes_max, std::string_view limit) {
   const bool from_input = path == "-";
   const std::string name = from_input ? "<stdin>" : path;
   // Non-blocking, so that a named pipe without a writer is refused instead of waited for.
@@ -89,9 +89,9 @@ std::string read_bytes(const std::string& path, size_t bytes_max) {
   if (!from_input) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) throw UserError("cannot-open", std::strerror(errno), name);
-    if (S_ISCHR(status.st_mode)) throw_too_large(name, bytes_max);  // a device has no end
+    if (S_ISCHR(status.st_mode)) throw_too_large(name, limit);  // a device has no end
     if (!S_ISREG(status.st_mode)) throw UserError("not-a-regular-file", "not a regular file", name);
-    if (static_cast<uint64_t>(status.st_size) > bytes_max) throw_too_large(name, bytes_max);
+    if (static_cast<uint64_t>(status.st_size) > bytes_max) throw_too_large(name, limit);
   }
   std::string bytes;
   for (;;) {
@@ -102,15 +102,15 @@ std::string read_bytes(const std::string& path, size_t bytes_max) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw UserError("cannot-open", std::strerror(errno), name);
     if (count == 0) return bytes;
-    if (bytes.size() > bytes_max) throw_too_large(name, bytes_max);
+    if (bytes.size() > bytes_max) throw_too_large(name, limit);
   }
 }
 
 bool check_source(Messages& messages, uint32_t file) {
   std::string& text = messages.files[file].text;
-  if (text.size() > kSceneBytesMax) {
+  if (text.size() > messages.limits.scene_bytes) {
     add_error(messages, {file, 0, 0}, "file-too-large",
-              fmt::format("more than the limit of {} MiB", kSceneBytesMax >> 20));
+              fmt::format("more than the limit of {}", limit_text(messages.limits, &Limits::scene_bytes)));
     return false;
   }
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);

@@ -9,8 +9,8 @@
 namespace patchlight {
 
 // The bytes of a file, at most bytes_max; `-` is standard input. Throws UserError: cannot-open,
-// not-a-regular-file, file-too-large.
-std::string read_bytes(const std::string& path, size_t bytes_max = kSceneBytesMax);
+// not-a-regular-file, file-too-large (the limit in words is `limit`).
+std::string read_bytes(const std::string& path, uint64_t bytes_max, std::string_view limit);
 
 // Checks messages.files[file].text in place: size, UTF-8 (a byte order mark is cut off), control characters,
 // then quotes, brackets and tabs by a light scan of YAML (see prescan.h). False and one error or more when

@@ -5,6 +5,7 @@
 #include "engine/vector.h"
 #include "limits.h"
 #include "yaml_errors.h"
+#include "yaml_stream.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -12,8 +13,6 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
-#include <istream>
-#include <streambuf>
 #include <unordered_map>
 
 namespace patchlight {
@@ -23,22 +22,18 @@ constexpr size_t kKeysComparedPairwise = 12;  // more keys than that are compare
 
 struct StopReading {};  // an error that leaves nothing to go on with, already reported
 
-// The text as a stream, without a copy.
-struct TextBuffer : std::streambuf {
-  explicit TextBuffer(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
-};
-
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(Messages& messages, uint32_t file, Tree& tree)
-      : messages_(messages), file_(file), tree_(tree) {}
+  TreeBuilder(Messages& messages, uint32_t file, const YamlStream& stream, Tree& tree)
+      : messages_(messages), file_(file), stream_(stream), tree_(tree) {}
 
   uint32_t root = kNone;
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (documents_++ == 0) return;
     const Place place = place_at(mark);
-    if (messages_.files[file_].text.compare(static_cast<size_t>(mark.pos), 3, "---") == 0)
+    const auto offset = static_cast<size_t>(stream_.true_mark(mark).pos);
+    if (messages_.files[file_].text.compare(offset, 3, "---") == 0)
       stop(place, "multiple-documents",
            "a second document begins here; one file holds one scene: take the '---' out");
     stop(place, "yaml-syntax",
@@ -65,10 +60,11 @@ class TreeBuilder : public YAML::EventHandler {
       stop(place, "alias-cycle", "this alias stands inside the node that it names, which would never end");
     const Anchor target = anchors_[anchor];
     alias_nodes_ += target.expanded;
-    if (alias_nodes_ > kAliasNodesMax)
+    if (alias_nodes_ > messages_.limits.alias_values)
       stop(place, "alias-expansion",
-           fmt::format("aliases stand for more than the limit of {} nodes", kAliasNodesMax));
-    if (open_.size() + target.height > kNestingMax) stop_too_deep(place);
+           fmt::format("aliases stand for more than the limit of {}",
+                       limit_text(messages_.limits, &Limits::alias_values)));
+    if (open_.size() + target.height > messages_.limits.nesting) stop_too_deep(place);
     const Node source = tree_.nodes[target.node];
     const uint32_t node = add_node(place, source.kind);
     expanded_ += target.expanded - 1;
@@ -116,7 +112,8 @@ class TreeBuilder : public YAML::EventHandler {
     throw StopReading{};
   }
   [[noreturn]] void stop_too_deep(Place place) {
-    stop(place, "too-deep", fmt::format("nested deeper than the limit of {}", kNestingMax));
+    stop(place, "too-deep",
+         fmt::format("nested deeper than the limit of {}", limit_text(messages_.limits, &Limits::nesting)));
   }
 
  private:
@@ -133,7 +130,8 @@ class TreeBuilder : public YAML::EventHandler {
     uint32_t height = 0;
   };
 
-  Place place_at(const YAML::Mark& mark) const {
+  Place place_at(const YAML::Mark& parser_mark) const {
+    const YAML::Mark mark = stream_.true_mark(parser_mark);
     return {file_, static_cast<uint32_t>(mark.line + 1), static_cast<uint32_t>(mark.column + 1)};
   }
   uint32_t last_child() const { return open_.back().last; }
@@ -153,8 +151,9 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   uint32_t add_node(Place place, NodeKind kind) {
-    if (tree_.nodes.size() >= kNodesMax)
-      stop(place, "memory-limit", fmt::format("more than the limit of {} values in one scene", kNodesMax));
+    if (tree_.nodes.size() >= messages_.limits.values)
+      stop(place, "memory-limit",
+           fmt::format("more than the limit of {}", limit_text(messages_.limits, &Limits::values)));
     const auto node = static_cast<uint32_t>(tree_.nodes.size());
     tree_.nodes.push_back({kNone, 0, kNone, place.line, place.column, kind, false});
     ++expanded_;
@@ -175,7 +174,7 @@ class TreeBuilder : public YAML::EventHandler {
   void open_container(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, NodeKind kind) {
     const Place place = place_at(mark);
     if (!tag.empty() && tag != "?" && tag != "!") check_tag(place, tag, {"seq", "map"});
-    if (open_.size() >= kNestingMax) stop_too_deep(place);
+    if (open_.size() >= messages_.limits.nesting) stop_too_deep(place);
     const uint64_t before = expanded_;
     const uint32_t node = add_node(place, kind);
     open_.push_back({node, kNone, anchor, before, 1});
@@ -232,6 +231,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   Messages& messages_;
   uint32_t file_;
+  const YamlStream& stream_;
   Tree& tree_;
   std::vector<Open> open_;
   std::vector<Anchor> anchors_;
@@ -248,17 +248,16 @@ uint32_t parse_tree(Messages& messages, uint32_t file, Tree& tree) {
   tree.file_first.resize(std::max<size_t>(tree.file_first.size(), file + 1),
                          static_cast<uint32_t>(tree.nodes.size()));
   const size_t errors_before = messages.error_count;
-  TreeBuilder builder(messages, file, tree);
+  YamlStream text(source.text);
+  TreeBuilder builder(messages, file, text, tree);
   try {
-    TextBuffer buffer(source.text);
-    std::istream stream(&buffer);
-    YAML::Parser parser(stream);
+    YAML::Parser parser(text.stream);
     // Two documents at most: the second one is an error, and asking further may never end.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const StopReading&) {
     return kNone;
   } catch (const YAML::Exception& error) {
-    report_yaml_error(messages, file, error);
+    report_yaml_error(messages, file, {text.true_mark(error.mark), error.msg});
     return kNone;
   }
   return messages.error_count == errors_before ? builder.root : kNone;

@@ -1,6 +1,7 @@
 // The variables of a scene.
 #include "variables.h"
 
+#include "expression.h"
 #include "values.h"
 
 #include <fmt/format.h>
@@ -69,14 +70,25 @@ void define_variables(const Context& context, const std::vector<std::string>& de
 
 namespace {
 
-Lookup evaluate_row(const Context& context, uint32_t row, double& value) {
-  using State = VariableTable::State;
+using State = VariableTable::State;
+
+// A variable of a file whose names begin with `prefix`, else one of the scene; kNone where there is none.
+uint32_t find_row(const VariableTable& variables, const std::string& prefix, std::string_view name) {
+  auto row = variables.row_of.find(prefix + std::string(name));
+  if (row == variables.row_of.end()) row = variables.row_of.find(std::string(name));
+  return row == variables.row_of.end() ? kNone : row->second;
+}
+
+void report_cycle(const Context& context, uint32_t row) {
   VariableTable& variables = *context.variables;
-  if (variables.state[row] == State::kBusy) {
-    add_error(context.messages, place_of(context.tree, variables.node[row]), "variable-cycle",
-              fmt::format("'{}' is defined by itself", escape_text(variables.name[row])));
-    variables.state[row] = State::kFailed;
-  }
+  add_error(context.messages, place_of(context.tree, variables.node[row]), "variable-cycle",
+            fmt::format("'{}' is defined by itself", escape_text(variables.name[row])));
+  variables.state[row] = State::kFailed;
+}
+
+Lookup evaluate_row(const Context& context, uint32_t row, double& value) {
+  VariableTable& variables = *context.variables;
+  if (variables.state[row] == State::kBusy) report_cycle(context, row);
   if (variables.state[row] == State::kWaiting) {
     variables.state[row] = State::kBusy;
     Context own = context;
@@ -91,11 +103,45 @@ Lookup evaluate_row(const Context& context, uint32_t row, double& value) {
   return variables.state[row] == State::kKnown ? Lookup::kFound : Lookup::kFailed;
 }
 
+// Adds to `waiting` what a variable's text names and what is not known yet. What is open already would need
+// itself.
+void push_needed(const Context& context, uint32_t row, const std::vector<uint8_t>& open,
+                 std::vector<uint32_t>& waiting) {
+  const VariableTable& variables = *context.variables;
+  const std::string_view text = text_of(context.tree, variables.node[row]);
+  if (!is_expression(text)) return;
+  for (size_t at = text.find('$'); at != std::string_view::npos; at = text.find('$', at + 1)) {
+    const uint32_t needed = find_row(variables, variables.prefix[row], leading_name(text.substr(at + 1)));
+    if (needed == kNone || variables.state[needed] != State::kWaiting) continue;
+    if (open[needed])
+      report_cycle(context, needed);
+    else
+      waiting.push_back(needed);
+  }
+}
+
 }  // namespace
 
 void check_variables(const Context& context) {
+  // What a variable names comes before it, so that a chain of definitions, however long, is no deep
+  // recursion.
+  const VariableTable& variables = *context.variables;
+  std::vector<uint8_t> open(variables.size(), 0);
+  std::vector<uint32_t> waiting;
   double value = 0;
-  for (uint32_t row = 0; row < context.variables->size(); ++row) evaluate_row(context, row, value);
+  for (uint32_t first = 0; first < variables.size(); ++first) {
+    waiting.push_back(first);
+    while (!waiting.empty()) {
+      const uint32_t row = waiting.back();
+      if (variables.state[row] == State::kWaiting && !open[row]) {
+        open[row] = 1;
+        push_needed(context, row, open, waiting);
+        continue;
+      }
+      waiting.pop_back();
+      evaluate_row(context, row, value);
+    }
+  }
 }
 
 Lookup find_variable(const Context& context, std::string_view name, double& value) {
@@ -106,16 +152,14 @@ Lookup find_variable(const Context& context, std::string_view name, double& valu
     }
   }
   if (!context.variables) return Lookup::kUnknown;
-  const auto& rows = context.variables->row_of;
-  auto row = rows.find(context.prefix + std::string(name));
-  if (row == rows.end()) row = rows.find(std::string(name));
-  return row == rows.end() ? Lookup::kUnknown : evaluate_row(context, row->second, value);
+  const uint32_t row = find_row(*context.variables, context.prefix, name);
+  return row == kNone ? Lookup::kUnknown : evaluate_row(context, row, value);
 }
 
 std::string undefined_variable_text(const Context& context, std::string_view name) {
   std::string message =
       fmt::format("'{0}' is not defined; define it under 'let:' or with -D {0}=...", escape_text(name));
-  if (!context.variables) return message;
+  if (!context.variables || !wants_errors(context.messages)) return message;
   if (const std::string near = did_you_mean(name, context.variables->name); !near.empty())
     message = fmt::format("'{}' is not defined; did you mean '{}'?", escape_text(name), near);
   return message;

@@ -1,97 +1,95 @@
-// Settings to sizes, counts and bytes, before anything is solved; tables to bytes.
-#include "solution.h"
+// Counts to seconds and bytes. The constants were fitted to five scenes (boxes, rooms, a hall of 64 lamps, a
+// furnished room of 8,508 faces), each with 64 to 1,024 rays a row and 20 thousand to 2 million patches, on
+// one core of an AMD EPYC of 2020.
+#include "forecast.h"
+
+#include "rows.h"
+#include "solve.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patchlight {
 namespace {
 
-// Of the square root of the scene's area, unless the user says otherwise.
-constexpr float kPatchSize = 1 / 30.0f;
-// Of the starting patch size.
-constexpr float kPatchSizeMin = 1 / 64.0f;
+// Microseconds. What a ray costs grows with the depth of the tree of faces, and faster where its levels no
+// longer fit the caches.
+constexpr double kRowRay = 0.065, kLampRay = 0.045, kPixel = 0.65;
+constexpr double kRowRayOfDepth = 1.1e-4, kLampRayOfDepth = 4e-5, kPixelOfDepth = 4e-4;  // by its cube
+constexpr double kKeptRay = 0.001;   // of a row that is kept, in each pass
+constexpr double kElement = 1.5;     // split, compared and joined
+constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
 
-uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& frames, float patch_size) {
-  uint64_t count = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f)
-    count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
-  return count;
+constexpr double kFaceBytes = 400, kElementBytes = 190, kPatchBytes = 200, kRayBytes = 8;
+constexpr double kPatchesOfRooms = 12'000;  // beside one a face
+
+double cube_of_depth(const FaceTable& faces) {
+  return std::pow(std::log2(static_cast<double>(faces.size()) + 1), 3);
+}
+
+// Faces that lamps are aimed from and their number; none where what emits is most of the scene: rows find it.
+struct Lamps {
+  double count = 0;
+  bool aimed = false;
+};
+Lamps find_lamps(const FaceTable& faces) {
+  const FaceFrameTable frames = make_face_frames(faces);
+  double lit = 0, all = 0;
+  Lamps lamps;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const double area = double{cell_area(frames, f, 0, 0)};
+    all += area;
+    if (largest(faces.emission[f]) <= 0) continue;
+    lit += area;
+    ++lamps.count;
+  }
+  lamps.aimed = lamps.count > 0 && lit < all / 2;
+  return lamps;
+}
+
+// A mesh starts with so many elements. Shadow edges grow as the square root of their number, and what is
+// smooth does not grow.
+double forecast_elements(double start, double patches, const Lamps& lamps, const SolverSettings& settings) {
+  constexpr double kAlongEdges = 800;
+  const double refined = lamps.aimed ? kAlongEdges * std::sqrt(start) : 0;
+  const double most = std::max(start, static_cast<double>(settings.patch_count_max));
+  return std::min(std::max(start, patches) + refined, most);
+}
+
+// Rays to lamps from all elements: fewer for each lamp where there are many.
+double forecast_lamp_rays(double elements, const Lamps& lamps, double rays) {
+  if (!lamps.aimed) return 0;
+  const double count = std::min(lamps.count, static_cast<double>(kAimedLampsMax));
+  return elements * 110 * std::pow(count, 0.37) * std::pow(rays / 256, 0.4);
 }
 
 }  // namespace
 
-uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face,
-                          float patch_size) {
-  const float wanted = faces.patch_size[face] > 0 ? faces.patch_size[face] : patch_size;
-  uint32_t level = faces.level_min[face];
-  // A hair of slack: an edge of exactly twice the patch size is halved once.
-  float edge = std::ldexp(longest_edge(cell_corners(frames, face, 0, 0)), -static_cast<int>(level));
-  while (edge > wanted * 1.0001f && level < kLevelMax) edge /= 2, ++level;
-  return std::min(level, kLevelMax - 1);
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings) {
+  const auto face_count = static_cast<double>(faces.size());
+  const auto start = static_cast<double>(count_starting_patches(faces, settings));
+  const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
+  const double rays = make_row_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
+  const double row_ray = kRowRay + kRowRayOfDepth * depth;
+  const Lamps lamps = find_lamps(faces);
+  Forecast forecast;
+  const double factor = find_size_factor(settings);
+  forecast.patches = face_count + std::min((budget - face_count) / 2, kPatchesOfRooms / (factor * factor));
+  forecast.elements = forecast_elements(start, forecast.patches, lamps, settings);
+  const double row_rays = forecast.patches * rays;
+  const double lamp_rays = forecast_lamp_rays(forecast.elements, lamps, rays);
+  const double later_passes = std::max(0.0, settings.pass_count_max - 2.0);
+  forecast.rays = row_rays * (1 + kAimedShare) + lamp_rays;
+  forecast.seconds = 1e-6 * (row_rays * row_ray * (1 + kAimedShare) +
+                             lamp_rays * (kLampRay + kLampRayOfDepth * depth) + forecast.elements * kElement +
+                             later_passes * row_rays * (settings.keep_rows ? kKeptRay : row_ray));
+  forecast.bytes = face_count * kFaceBytes + forecast.elements * kElementBytes +
+                   forecast.patches * (kPatchBytes + (settings.keep_rows ? rays * kRayBytes : 0));
+  return forecast;
 }
 
-// How many patches may carry light between surfaces: one a face, and half of what that leaves of the budget,
-// but no more than rooms need (4,000 to 15,000; a room of a million elements is no harder).
-uint64_t count_transport_patches(const FaceTable& faces, const SolverSettings& settings) {
-  // As sizes go, so goes the number of patches.
-  const double factor = double{find_size_factor(settings)};
-  const auto more = static_cast<uint64_t>(24000 / (factor * factor));
-  const uint64_t face_count = faces.size(), budget = std::max<uint64_t>(settings.patch_count_max, face_count);
-  return face_count + std::min((budget - face_count) / 2, more);
-}
-
-PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames,
-                            const SolverSettings& settings) {
-  float start = settings.patch_size;
-  if (start <= 0) {
-    // An automatic size leaves half of what the faces themselves do not take of the budget to the rounds.
-    const float scale = find_scene_scale(faces, frames);
-    const uint64_t face_count = std::min<uint64_t>(faces.size(), settings.patch_count_max);
-    const uint64_t most = face_count + (settings.patch_count_max - face_count) / 2;
-    start = kPatchSize * find_size_factor(settings) * scale;
-    while (start < scale && count_leaves_at_start(faces, frames, start) > most) start *= 1.25f;
-  }
-  return {start, settings.patch_size_min > 0 ? settings.patch_size_min
-                                             : kPatchSizeMin * find_size_factor(settings) * start};
-}
-
-uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings) {
-  const FaceFrameTable frames = make_face_frames(faces);
-  return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings).start);
-}
-
-uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) {
-  // Bytes a row, from tables.h; the largest moment is a split, when the elements exist twice, or the making
-  // of the shared corners.
-  constexpr uint64_t kFaceBytes = 700, kElementBytes = 190, kPatchBytes = 200;
-  const uint64_t start = count_starting_patches(faces, settings);
-  const uint64_t elements = std::max(start, settings.patch_count_max);
-  const uint64_t patches = count_transport_patches(faces, settings);
-  const uint64_t row_bytes =
-      settings.keep_rows ? 8 * uint64_t{make_row_grid(count_row_rays(settings)).ray_count()} : 0;
-  return kFaceBytes * faces.size() + kElementBytes * elements + (kPatchBytes + row_bytes) * patches;
-}
-
-uint64_t count_bytes(const Solution& s) {
-  const auto bytes = [](const auto&... column) {
-    return ((column.capacity() * sizeof(column[0])) + ... + 0);
-  };
-  const auto patch_bytes = [&](const PatchTable& t) {
-    return bytes(t.face, t.cell, t.level, t.area, t.exposed, t.radiosity, t.unshot, t.face_first);
-  };
-  const auto vertex_bytes = [&](const VertexTable& t) {
-    return bytes(t.leaf_vertex, t.vertex_first, t.vertex_leaf, t.hanging_between, t.hanging_order, t.border);
-  };
-  const FaceFrameTable& f = s.frames;
-  return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.joints.edge, s.joints.corner, s.element_first, s.element_patch,
-               s.aims.list_of, s.aims.list_first, s.aims.lamp, s.receivers.first, s.receivers.patch,
-               s.receivers.area_until, s.receivers.centre, s.receivers.normal, s.receivers.receiver_of,
-               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.hits.nothing,
-               s.hits.back, s.hits.buried, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
-               s.coarse, s.coarse_error, s.fresh) +
-         patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
-         vertex_bytes(s.element_vertices);
+double forecast_film_seconds(const FaceTable& faces, double pixels) {
+  return 1e-6 * pixels * (kPixel + kPixelOfDepth * cube_of_depth(faces));
 }
 
 }  // namespace patchlight

@@ -31,9 +31,8 @@ struct Section {
   std::string (*format)(const Json&);
 };
 constexpr Section kSections[] = {
-    {"kernels", measure_kernels_section, format_kernels},
-    {"scenes", measure_scenes, format_scenes},
-    {"growth", measure_growth, format_growth},
+    {"kernels", measure_kernels_section, format_kernels}, {"scenes", measure_scenes, format_scenes},
+    {"loading", measure_loading, format_loading},         {"growth", measure_growth, format_growth},
     {"threads", measure_threads, format_threads},
 };
 

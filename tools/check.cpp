@@ -18,16 +18,20 @@ int check(const Options& options, Talk& talk) {
   if (options.json) return 0;
 
   const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
+  const RunForecast likely = forecast_run(scene, plan);
   std::string text = fmt::format(
       "{}: {}\n"
       "polygons          {}\n"
       "faces             {}\n"
       "starting patches  {} of {} at most\n"
-      "memory            {} at most, {} available\n",
+      "memory            likely {}, at most {}; {} available\n"
+      "time              likely {} on {} thread{}; an estimate by counts of rays\n",
       escape_text(scene.file, 200),
       warnings.empty() ? "right" : fmt::format("right, with {} warnings", warnings.size()),
       scene.polygons.size(), scene.faces.size(), patches, scene.solver.patch_count_max,
-      format_bytes(forecast_run_bytes(scene, plan)), format_bytes(find_memory_available()));
+      format_bytes(likely.bytes), format_bytes(forecast_run_bytes(scene, plan)),
+      format_bytes(find_memory_available()), format_seconds(likely.seconds), plan.thread_count,
+      plan.thread_count == 1 ? "" : "s");
   for (const Camera& camera : plan.cameras)
     text += fmt::format("camera            {}{}{} x {}\n", camera.name, camera.name.empty() ? "" : ", ",
                         camera.width, camera.height);

@@ -55,6 +55,7 @@ constexpr const char* kBenchHelp =
 Examples:
   patchlight bench                                  kernels, and the scenes of the folder scenes
   patchlight bench room.yaml --only scenes          whole runs of one scene
+  patchlight bench --only loading                   large scenes, beside the YAML parser alone
   patchlight bench --only growth,threads --json b.json
 
 Every figure is a median with its lowest and highest value. Kernels, growth and threads take the first scene.
@@ -110,6 +111,29 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
   app.add_flag(name, value, help)->disable_flag_override();
 }
 
+// Limits of what a scene may cost, a flag a row of their table.
+void add_limit_flags(CLI::App& app, Options& options) {
+  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more; what is available unless given",
+            [&](const std::string& text) {
+              options.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+            });
+  add_value(app, "--max-seconds", "S",
+            fmt::format("refuse a run that will likely take longer; {} unless given", options.max_seconds),
+            [&](const std::string& text) {
+              options.max_seconds = parse_number("--max-seconds", text, 0.001, 1e12);
+            });
+  for (const LimitRow& row : kLimitRows) {
+    const uint64_t usual = Limits{}.*row.limit;
+    add_value(app, std::string(row.flag), "N",
+              fmt::format("{} {}; {} unless given", row.unit, row.description, usual),
+              [&options, row](const std::string& text) {
+                options.load.limits.*row.limit = parse_count(row.flag, text, 1, row.highest);
+              });
+  }
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_name().starts_with("--max-")) app.get_option(option->get_name())->group("Limits");
+}
+
 // Flags that change what a solve takes: render and check share them.
 void add_solver_flags(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "a scene file; - reads standard input")->type_name("")->required();
@@ -122,7 +146,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
       ->type_name("")
       ->allow_extra_args(false);
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
-    options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesMax));
+    options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesFlagMax));
   });
   add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
     options.snapshots_all = text == "all";
@@ -151,6 +175,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
   });
   add_value(app, "--max-patches", "N", "the budget of patches", [&](const std::string& text) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
+    options.load.limits.starting_patches = *options.max_patches;
   });
   add_value(app, "--form-factors", "HOW",
             "cached, or recompute: less memory, more time, the same result; as memory allows unless given",
@@ -160,6 +185,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_switch(app, "--quiet", options.quiet, "no progress and no summary");
   add_switch(app, "--json", options.json,
              "messages as a JSON list on standard output, and nothing else there");
+  add_limit_flags(app, options);
   add_value(
       app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {
         options.color = static_cast<ColorChoice>(parse_choice("--color", text, {"auto", "always", "never"}));
@@ -192,11 +218,12 @@ void add_render_flags(CLI::App& app, Options& options) {
 void add_bench_flags(CLI::App& app, Options& options) {
   BenchOptions& bench = options.bench;
   app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
-  add_value(app, "--only", "LIST", "sections, of kernels,scenes,growth,threads; the first two unless given",
+  add_value(app, "--only", "LIST",
+            "sections, of kernels,scenes,loading,growth,threads; the first two unless given",
             [&](const std::string& text) {
               bench.sections = split_list(text);
               for (const std::string& section : bench.sections)
-                parse_choice("--only", section, {"kernels", "scenes", "growth", "threads"});
+                parse_choice("--only", section, {"kernels", "scenes", "loading", "growth", "threads"});
             });
   add_value(app, "--json", "FILE", "the result as JSON, too", [&](const std::string& text) {
     if (text.empty()) fail_usage("--json: expected a file");
@@ -297,7 +324,7 @@ double parse_number(std::string_view flag, std::string_view text, double low, do
 std::vector<uint32_t> parse_snapshots(std::string_view text) {
   std::vector<uint32_t> passes;
   for (const std::string& part : split_list(text))
-    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesMax)));
+    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesFlagMax)));
   std::sort(passes.begin(), passes.end());
   passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
   return passes;

@@ -16,6 +16,7 @@ enum class Verb { kRender, kCheck, kBench, kPrinted };  // kPrinted: help or ver
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
+constexpr uint32_t kPassesFlagMax = 1'000'000;  // a scene file may ask for kPassesMax only
 
 struct BenchOptions {
   std::vector<std::string> scenes;  // paths; empty: those in scenes/
@@ -48,7 +49,9 @@ struct Options {
   std::optional<uint32_t> threads;
   std::optional<uint64_t> seed;
   std::optional<uint64_t> max_patches;
-  std::optional<bool> keep_rows;  // form factors cached or computed again; empty: as memory allows
+  std::optional<uint64_t> max_memory;  // bytes; empty: what is available
+  double max_seconds = 86'400;         // that the run will likely take
+  std::optional<bool> keep_rows;       // form factors cached or computed again; empty: as memory allows
   std::vector<std::string> formats = {"png"};
   std::string report;  // empty: beside the pictures
   bool quiet = false;

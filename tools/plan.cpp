@@ -4,6 +4,8 @@
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
 #include "engine/film.h"
+#include "engine/forecast.h"
+#include "engine/parallel.h"
 #include "memory.h"
 
 #include <fmt/format.h>
@@ -17,6 +19,10 @@ namespace {
 constexpr uint64_t kFilmBytesPerPixel = 160;
 // Colours, bytes and the compressor's table, of two pictures on their way to a file.
 constexpr uint64_t kPictureBytesPerPixel = 64;
+// What is likely: the film itself; the same and pictures in the making; the program with its libraries.
+constexpr double kFilmBytesLikely = 44, kPictureBytesLikely = 60, kProgramBytesLikely = 12e6;
+constexpr double kPictureSeconds = 0.1e-6;  // a pixel and snapshot: shown and encoded
+constexpr double kShareOfThreads = 0.95;    // of their number
 
 template <class Value, class Asked>
 void override_with(Value& value, const std::optional<Asked>& asked) {
@@ -105,8 +111,12 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
+  plan.limits = options.load.limits;
+  plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
+  plan.seconds_max = options.max_seconds;
+  plan.thread_count = options.threads ? *options.threads : thread_count_default();
   scene.solver.keep_rows =
-      options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= find_memory_available();
+      options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= plan.bytes_max;
   return plan;
 }
 
@@ -131,30 +141,49 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
   return bytes + pixels_largest * kPictureBytesPerPixel;
 }
 
+RunForecast forecast_run(const Scene& scene, const Plan& plan) {
+  const Forecast solve = forecast_solve(scene.faces, scene.solver);
+  double bytes = kProgramBytesLikely + solve.bytes, seconds = solve.seconds, pixels_largest = 0;
+  if (plan.has_pictures())
+    for (const Camera& camera : plan.cameras) {
+      const double pixels = static_cast<double>(uint64_t{camera.width} * camera.height);
+      pixels_largest = std::max(pixels_largest, pixels);
+      bytes += pixels * kFilmBytesLikely;
+      seconds += forecast_film_seconds(scene.faces, pixels) +
+                 pixels * kPictureSeconds * static_cast<double>(plan.snapshots.size());
+    }
+  bytes += pixels_largest * kPictureBytesLikely;
+  const auto threads = static_cast<double>(plan.thread_count);
+  return {static_cast<uint64_t>(bytes), seconds / std::max(1.0, threads * kShareOfThreads)};
+}
+
 void check_limits(const Scene& scene, const Plan& plan) {
   for (const Camera& camera : plan.cameras) {
-    const uint64_t pixels = uint64_t{camera.width} * camera.height;
-    if (camera.width > kImageSideMax || camera.height > kImageSideMax || pixels > kImagePixelsMax)
-      throw UserError("image-too-large",
-                      fmt::format("a picture of {} x {} pixels is asked for; the limits are {} a side and {} "
-                                  "pixels; set size lower",
-                                  camera.width, camera.height, kImageSideMax, kImagePixelsMax),
-                      scene.file);
+    const std::string fault = find_image_fault(plan.limits, camera.width, camera.height);
+    if (!fault.empty()) throw UserError("image-too-large", fault, scene.file);
   }
   const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
   if (patches > scene.solver.patch_count_max)
     throw UserError("too-many-patches",
-                    fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches or "
-                                "patch_size",
+                    fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches "
+                                "(--max-patches) or patch_size",
                                 patches, scene.solver.patch_count_max),
                     scene.file);
   const uint64_t bytes = forecast_run_bytes(scene, plan);
-  const uint64_t available = find_memory_available();
-  if (bytes > available)
+  if (bytes > plan.bytes_max)
     throw UserError("memory-limit",
-                    fmt::format("the run may need {} and {} are available; lower max_patches, rays or size",
-                                format_bytes(bytes), format_bytes(available)),
+                    fmt::format("the run may need {}; the limit is {}, what is available unless --max-memory "
+                                "says another; lower max_patches, rays or size",
+                                format_bytes(bytes), format_bytes(plan.bytes_max)),
                     scene.file);
+  const double seconds = forecast_run(scene, plan).seconds;
+  if (seconds > plan.seconds_max)
+    throw UserError(
+        "time-limit",
+        fmt::format("the run will likely take {}; the limit is {} (--max-seconds raises it); lower "
+                    "max_patches, rays or size",
+                    format_seconds(seconds), format_seconds(plan.seconds_max)),
+        scene.file);
 }
 
 std::string format_count(uint64_t count) {
@@ -168,6 +197,14 @@ std::string format_bytes(uint64_t bytes) {
   const double value = static_cast<double>(bytes);
   if (value >= 1e9) return fmt::format("{:.1f} GB", value * 1e-9);
   return fmt::format("{:.1f} MB", value * 1e-6);
+}
+
+std::string format_seconds(double seconds) {
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86'400;
+  if (seconds >= 2 * kDay) return fmt::format("{:.3g} days", seconds / kDay);
+  if (seconds >= 2 * kHour) return fmt::format("{:.3g} hours", seconds / kHour);
+  if (seconds >= 2 * kMinute) return fmt::format("{:.3g} minutes", seconds / kMinute);
+  return fmt::format("{:.2g} s", seconds);
 }
 
 }  // namespace patchlight

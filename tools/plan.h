@@ -16,6 +16,10 @@ struct Plan {
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
   std::vector<const Exporter*> exporters;
+  Limits limits;
+  uint64_t bytes_max = 0;   // what the run may hold at its peak
+  double seconds_max = 0;   // what it may likely take
+  size_t thread_count = 1;  // what it will run on
   bool has_pictures() const;
 };
 
@@ -38,12 +42,20 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);
 
-// Throws UserError: image-too-large, too-many-patches, memory-limit, each with the number found and the
-// limit.
+// What the run will likely take, from its first ray to its last file.
+struct RunForecast {
+  uint64_t bytes = 0;
+  double seconds = 0;  // on the plan's threads, on a core of 2020
+};
+RunForecast forecast_run(const Scene& scene, const Plan& plan);
+
+// Throws UserError: image-too-large, too-many-patches, memory-limit, time-limit, each with the number found,
+// the limit and its flag.
 void check_limits(const Scene& scene, const Plan& plan);
 
 // 1234567 as "1.23 million", bytes as "84 MB": for people, the same in every locale.
 std::string format_count(uint64_t count);
 std::string format_bytes(uint64_t bytes);
+std::string format_seconds(double seconds);  // "0.8 s", "12 minutes", "3 days"
 
 }  // namespace patchlight

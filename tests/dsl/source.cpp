@@ -10,7 +10,7 @@ namespace {
 
 std::string slug_of_file(const std::string& path) {
   try {
-    read_bytes(path);
+    read_bytes(path, 1 << 20, "1 MiB");
   } catch (const UserError& error) {
     return error.diagnostics.front().slug;
   }
@@ -25,7 +25,7 @@ TEST_CASE("what cannot be a scene file is refused before it is read") {
 
 TEST_CASE("a text above the limit is refused") {
   Messages messages;
-  messages.files.push_back({"t.yaml", std::string(kSceneBytesMax + 1, ' ')});
+  messages.files.push_back({"t.yaml", std::string(Limits{}.scene_bytes + 1, ' ')});
   CHECK(!check_source(messages, 0));
   CHECK(messages.errors[0].slug == "file-too-large");
 }

@@ -7,6 +7,7 @@ set(DSL_TEST_SOURCES
   dsl/faces.cpp
   dsl/include.cpp
   dsl/language.cpp
+  dsl/limits.cpp
   dsl/mesh.cpp
   dsl/number.cpp
   dsl/overrides.cpp

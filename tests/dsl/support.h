@@ -25,10 +25,10 @@ struct Loaded {
   size_t more = 0;
 };
 
-inline Loaded load(const std::string& text) {
+inline Loaded load(const std::string& text, const Limits& limits = {}) {
   Loaded loaded;
   try {
-    loaded.scene = load_scene_text(text, "t.yaml", loaded.warnings);
+    loaded.scene = load_scene_text(text, "t.yaml", loaded.warnings, {{}, {}, limits});
   } catch (const UserError& error) {
     loaded.errors = error.diagnostics;
     loaded.more = error.more;

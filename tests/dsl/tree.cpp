@@ -95,9 +95,40 @@ TEST_CASE("what the language leaves out of YAML is refused") {
   CHECK(slug_of("a: *b") == "yaml-undefined-alias");
 }
 
+TEST_CASE("what stands in a root of brackets, or behind it, has its own place") {
+  const auto place_of_error = [](const std::string& text) {
+    Parsed parsed;
+    parse(text, parsed);
+    if (parsed.messages.errors.empty()) return std::string{};
+    const Diagnostic& error = parsed.messages.errors[0];
+    return fmt::format("{} {}:{}", error.slug, error.line, error.column);
+  };
+  Parsed parsed;
+  parse("# JSON\n\n  {\"a\": 1,\n \"b\": [2]}\n", parsed);
+  REQUIRE(parsed.root != kNone);
+  const uint32_t one = child_of(parsed.tree, parsed.root, 1), two = child_of(parsed.tree, parsed.root, 3);
+  CHECK(parsed.tree.nodes[parsed.root].column == 3);
+  CHECK(parsed.tree.nodes[one].line == 3);
+  CHECK(parsed.tree.nodes[one].column == 9);
+  CHECK(parsed.tree.nodes[two].line == 4);
+  CHECK(parsed.tree.nodes[two].column == 7);
+  CHECK(place_of_error("{a: 1, a: 2}") == "duplicate-key 1:8");
+  CHECK(place_of_error("{a: 1, b: *c}") == "yaml-undefined-alias 1:11");
+  CHECK(place_of_error("[a,\n b: !x c]") == "unknown-tag 2:5");
+  CHECK(place_of_error("{a: 1}\n---\nb: 2\n") == "multiple-documents 2:1");
+  CHECK(place_of_error("{a: 1}\nb: 2\n") == "yaml-syntax 2:1");
+  CHECK(place_of_error("{a: 1} b\n") == "yaml-syntax 1:8");
+  CHECK(place_of_error("---\n{a: 1, a: 2}") == "duplicate-key 2:8");
+  CHECK(place_of_error("--- {a: 1, a: 2}") == "duplicate-key 1:12");
+  CHECK(place_of_error("\n{a: 1, a: 2}") == "duplicate-key 2:8");
+  CHECK(place_of_error("\n\n[*a]") == "yaml-undefined-alias 3:2");
+  CHECK(place_of_error("{").starts_with("yaml-syntax"));
+}
+
 TEST_CASE("64 levels are read, 65 are not") {
-  CHECK(slug_of(std::string(kNestingMax, '[') + std::string(kNestingMax, ']')) == "");
-  CHECK(slug_of(std::string(kNestingMax + 1, '[') + std::string(kNestingMax + 1, ']')) == "too-deep");
+  CHECK(slug_of(std::string(Limits{}.nesting, '[') + std::string(Limits{}.nesting, ']')) == "");
+  CHECK(slug_of(std::string(Limits{}.nesting + 1, '[') + std::string(Limits{}.nesting + 1, ']')) ==
+        "too-deep");
 }
 
 }  // namespace

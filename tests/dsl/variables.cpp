@@ -4,6 +4,7 @@
 #include "support.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 namespace patchlight::test {
 namespace {
@@ -27,6 +28,21 @@ TEST_CASE("let may be in any order, and -D is stronger") {
   const Loaded defined = load_with(kWide, {{"w=1"}, {}});
   REQUIRE(defined.errors.empty());
   CHECK(face_area(defined.scene, 0) == doctest::Approx(2));
+}
+
+TEST_CASE("a chain of definitions may be long, in any order, and a ring of them is told once") {
+  constexpr int kLong = 20'000;  // some 10 MB of stack, were each read where it is used
+  std::string text = kHead + "  - {quad: {size: [$v0, 1]}, material: lamp}\nlet:\n";
+  for (int k = 0; k < kLong; ++k) text += fmt::format("  v{}: '=$v{}+1'\n", k, k + 1);
+  const Loaded chain = load(text + fmt::format("  v{}: 1\n", kLong));
+  REQUIRE(chain.errors.empty());
+  double area = 0;
+  for (size_t f = 0; f < chain.scene.faces.size(); ++f) area += face_area(chain.scene, f);
+  CHECK(area == doctest::Approx(kLong + 1));
+  const Loaded ring = load(text + fmt::format("  v{}: $v100\n", kLong));
+  REQUIRE(ring.errors.size() == 1);
+  CHECK(ring.errors[0].slug == "variable-cycle");
+  CHECK(ring.errors[0].message == "'v100' is defined by itself");
 }
 
 TEST_CASE("definitions that are wrong are mistakes of usage") {

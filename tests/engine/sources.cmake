@@ -2,6 +2,7 @@ set(ENGINE_TEST_SOURCES
   engine/cell.cpp
   engine/direct.cpp
   engine/film.cpp
+  engine/forecast.cpp
   engine/gather.cpp
   engine/lambert.cpp
   engine/ledger.cpp

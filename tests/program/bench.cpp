@@ -32,13 +32,14 @@ TEST_CASE("bench prints its sections and writes them as JSON") {
   const Folder folder;
   const std::string camera = "camera: {eye: [2, 2, 2], target: [0, 0, 0], size: [32, 24]}\n";
   write_bytes(folder / "box.yaml", kBoxScene + camera);
-  const ChildResult result = run_child(
-      {"bench", folder / "box.yaml", "--only", "kernels,scenes,growth,threads", "--json", folder / "b.json",
-       "--repetitions", "1", "--seconds", "0.001", "--threads", "2", "--max-patches", "2000"});
+  const ChildResult result =
+      run_child({"bench", folder / "box.yaml", "--only", "kernels,scenes,loading,growth,threads", "--json",
+                 folder / "b.json", "--repetitions", "1", "--seconds", "0.001", "--threads", "2",
+                 "--max-patches", "2000"});
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
-  for (const char* word : {"kernels, on ", "scenes, whole program", "growth, solve", "threads, solve",
-                           "bare traversal of the same rays", "the same bits"})
+  for (const char* word : {"kernels, on ", "scenes, whole program", "loading, on one thread", "growth, solve",
+                           "threads, solve", "bare traversal of the same rays", "the same bits"})
     CHECK_MESSAGE(has(result.out, word), word);
   CHECK(list_names(folder.path) == "b.json box.yaml");
 
@@ -57,6 +58,17 @@ TEST_CASE("bench prints its sections and writes them as JSON") {
   CHECK(scene["patches"].get<uint64_t>() <= 2000);
   CHECK(scene["bare_traversal_share"].get<double>() > 0);
   CHECK(scene["visibility_rays"].get<uint64_t>() > 0);
+  REQUIRE(json["loading"].size() == 5);
+  for (const Json& row : json["loading"]) {
+    for (const char* key : {"load_seconds", "pass_seconds", "ratio", "load_bytes_peak"})
+      check_figure(row[key]);
+    // 2000 polygons and the lamp, 1000 materials, and 166 times 300 wrong numbers.
+    const bool is_wrong = row["name"] == "errors";
+    CHECK(row["errors"].get<int>() == (is_wrong ? 49'800 : 0));
+    CHECK((row["polygons"].get<int>() == 0) == is_wrong);
+  }
+  CHECK(json["loading"][0]["polygons"] == 2001);
+  CHECK(json["loading"][0]["polygons"] == json["loading"][1]["polygons"]);
   REQUIRE(json["growth"]["steps"].size() >= 2);
   for (const Json& step : json["growth"]["steps"]) check_figure(step["wall_seconds"]);
   CHECK(std::isfinite(json["growth"]["tenfold"]["processor_seconds"].get<double>()));

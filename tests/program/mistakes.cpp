@@ -129,6 +129,32 @@ TEST_CASE("limits end with 5 and name their number") {
       run_child({"check", folder / "box.yaml", "--max-patches", "1000000000", "--size", "8000x8000"});
   CHECK(memory.exit_code == 5);
   CHECK(has(memory.err, "error[memory-limit]"));
+  CHECK(has(memory.err, "--max-memory"));
+  const ChildResult time = run_child({"check", folder / "box.yaml", "--max-seconds", "0.001"});
+  CHECK(time.exit_code == 5);
+  CHECK(has(time.err, "error[time-limit]"));
+  // Refused before the solve: nothing is written.
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--max-seconds", "0.001"},
+                                             {"--max-memory", "1000"},
+                                             {"--max-polygons", "2"},
+                                             {"--max-values", "9"}}) {
+    const ChildResult refused = run_child(render_words(folder / "box.yaml", folder / "lit", more));
+    CHECK(refused.exit_code == 5);
+    CHECK(has(refused.err, more[0]));
+    CHECK(!std::filesystem::exists(folder / "lit"));
+  }
+}
+
+TEST_CASE("check forecasts memory and time") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result = run_child({"check", folder / "box.yaml", "--threads", "1"});
+  CHECK(result.exit_code == 0);
+  CHECK(has(result.out, "memory            likely "));
+  CHECK(has(result.out, ", at most "));
+  CHECK(has(result.out, "time              likely "));
+  CHECK(has(result.out, " on 1 thread; an estimate by counts of rays\n"));
 }
 
 TEST_CASE("a snapshot beyond the passes ends with 3") {

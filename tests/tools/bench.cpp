@@ -50,7 +50,7 @@ TEST_CASE("mistakes on bench's command line are usage errors") {
     const char* said;
   };
   for (const Mistake& mistake :
-       {Mistake{{"bench", "--only", "kernel"}, "expected one of kernels, scenes, growth, threads"},
+       {Mistake{{"bench", "--only", "kernel"}, "expected one of kernels, scenes, loading, growth, threads"},
         {{"bench", "--only", ""}, "expected one of"},
         {{"bench", "--repetitions", "0"}, "0 is outside 1 to 1000"},
         {{"bench", "--seconds", "0"}, "outside"},

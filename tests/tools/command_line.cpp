@@ -100,7 +100,7 @@ TEST_CASE("mistakes on the command line are usage errors that say what was meant
       {{"render", "a.yaml", "--passes"}, "--passes: expected exactly one value"},
       {{"render", "a.yaml", "--passes", "1", "--passes", "2"}, "--passes: expected exactly one value"},
       {{"render", "a.yaml", "--mesh=3"}, "--mesh: takes no value"},
-      {{"render", "a.yaml", "--passes", "0"}, "0 is outside 1 to 10000"},
+      {{"render", "a.yaml", "--passes", "0"}, "0 is outside 1 to 1000000"},
       {{"render", "a.yaml", "--passes", "nan"}, "expected a whole number"},
       {{"render", "a.yaml", "--passes", "010"}, "expected a whole number"},
       {{"render", "a.yaml", "--passes", "1e2"}, "expected a whole number"},
@@ -127,6 +127,28 @@ TEST_CASE("mistakes on the command line are usage errors that say what was meant
     CHECK(said.starts_with("usage: "));
     CHECK_MESSAGE(has(said, mistake.said), mistake.said);
   }
+}
+
+TEST_CASE("every limit has a flag of render and of check, with a range") {
+  const Limits usual;
+  for (const char* verb : {"render", "check"}) {
+    const std::string help = parse_command_line({verb, "--help"}).text;
+    for (const LimitRow& row : kLimitRows) {
+      const std::string flag(row.flag), usual_text = std::to_string(usual.*row.limit);
+      CAPTURE(flag);
+      CHECK(has(help, flag));
+      CHECK(has(help, usual_text + " unless given"));
+      CHECK(row.highest > usual.*row.limit);
+      const Options options = parse_command_line({verb, "a.yaml", flag, std::to_string(row.highest)});
+      CHECK(options.load.limits.*row.limit == row.highest);
+      CHECK(has(find_mistake({verb, "a.yaml", flag, std::to_string(row.highest + 1)}), "is outside 1 to"));
+      CHECK(has(find_mistake({verb, "a.yaml", flag, "0"}), "is outside 1 to"));
+    }
+  }
+  const Options options =
+      parse_command_line({"check", "a.yaml", "--max-patches", "3000000", "--max-memory", "5000"});
+  CHECK(options.load.limits.starting_patches == 3'000'000);
+  CHECK(options.max_memory == 5000u);
 }
 
 TEST_CASE("text from the command line is printed escaped") {

@@ -116,6 +116,58 @@ TEST_CASE("pictures have limits: a side and all pixels") {
     const Plan plan = make_plan(scene, options);
     CHECK(find_slug([&] { check_limits(scene, plan); }) == "image-too-large");
   }
+  options.size = {{20'000, 1}};
+  options.load.limits.image_side = 20'000;
+  check_limits(scene, make_plan(scene, options));
+}
+
+TEST_CASE("memory and time are held to their limits at the border, and the flags that raise them are named") {
+  Scene scene = make_scene();
+  Options options;
+  options.max_memory = forecast_run_bytes(scene, make_plan(scene, options));
+  options.max_seconds = forecast_run(scene, make_plan(scene, options)).seconds;
+  check_limits(scene, make_plan(scene, options));
+  const auto find_mistake = [&] {
+    try {
+      options.keep_rows = true;
+      check_limits(scene, make_plan(scene, options));
+    } catch (const UserError& error) {
+      CHECK(exit_code(error.diagnostics.front()) == 5);
+      return error.diagnostics.front().slug + ": " + error.diagnostics.front().message;
+    }
+    return std::string{};
+  };
+  --*options.max_memory;
+  CHECK(find_mistake().starts_with("memory-limit: "));
+  CHECK(find_mistake().find("--max-memory") != std::string::npos);
+  options.max_memory.reset();
+  CHECK(find_mistake().empty());
+  options.max_seconds *= 0.99;
+  CHECK(find_mistake().starts_with("time-limit: "));
+  CHECK(find_mistake().find("--max-seconds raises it") != std::string::npos);
+}
+
+TEST_CASE("more pixels, cameras and snapshots take longer, more threads less long") {
+  Scene scene = make_scene();
+  Options options;
+  options.threads = 1;
+  const RunForecast usual = forecast_run(scene, make_plan(scene, options));
+  CHECK(usual.bytes < forecast_run_bytes(scene, make_plan(scene, options)));
+  options.threads = 2;
+  CHECK(forecast_run(scene, make_plan(scene, options)).seconds < 0.6 * usual.seconds);
+  options.threads = 1;
+  options.formats = {"csv"};
+  CHECK(forecast_run(scene, make_plan(scene, options)).seconds < usual.seconds);
+  options.formats = {"png"};
+  options.snapshots_all = true;
+  CHECK(forecast_run(scene, make_plan(scene, options)).seconds > usual.seconds);
+  options.snapshots_all = false;
+  scene.cameras.resize(2);
+  const RunForecast two = forecast_run(scene, make_plan(scene, options));
+  CHECK(two.seconds > usual.seconds);
+  CHECK(two.bytes > usual.bytes);
+  options.size = {{1920, 1440}};
+  CHECK(forecast_run(scene, make_plan(scene, options)).seconds > two.seconds);
 }
 
 TEST_CASE("form factors are kept where memory allows, or as the flag says") {
@@ -143,4 +195,9 @@ TEST_CASE("counts and bytes read the same in every locale") {
   CHECK(format_count(4500000000) == "4.5 billion");
   CHECK(format_bytes(84300000) == "84.3 MB");
   CHECK(format_bytes(2500000000) == "2.5 GB");
+  CHECK(format_seconds(0.83) == "0.83 s");
+  CHECK(format_seconds(90) == "90 s");
+  CHECK(format_seconds(180) == "3 minutes");
+  CHECK(format_seconds(9000) == "2.5 hours");
+  CHECK(format_seconds(1e6) == "11.6 days");
 }

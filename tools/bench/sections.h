@@ -17,6 +17,10 @@ std::string format_kernels(const Json& section);
 Json measure_scenes(const BenchOptions& options, Talk& talk);
 std::string format_scenes(const Json& section);
 
+// loading.cpp: time and memory of loading large scenes beside the YAML parser alone.
+Json measure_loading(const BenchOptions& options, Talk& talk);
+std::string format_loading(const Json& section);
+
 // growth.cpp: time and memory of the first scene's solve against the number of its patches.
 Json measure_growth(const BenchOptions& options, Talk& talk);
 std::string format_growth(const Json& section);

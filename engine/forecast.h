@@ -1,0 +1,23 @@
+// Faces and settings to what a run will likely take: by counts, before anything is traced.
+#pragma once
+
+#include "settings.h"
+#include "tables.h"
+
+namespace patchlight {
+
+// Estimates, mostly within a factor of two. Seconds are those of one core; of several cores each does its
+// share. Bytes are the solver's at their largest.
+struct Forecast {
+  double elements = 0;  // when all rounds are done
+  double patches = 0;   // that carry light between surfaces
+  double rays = 0;      // of rows and to lamps
+  double seconds = 0;
+  double bytes = 0;
+};
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings);
+
+// Of one picture's film.
+double forecast_film_seconds(const FaceTable& faces, double pixels);
+
+}  // namespace patchlight
