@@ -26,6 +26,10 @@ struct Limits {
   uint64_t expression_depth = 64;
 };
 
+// What follows from the limit of polygons, a polygon: objects that hold none cost time, corners memory, and a
+// copy is read anew, however little it makes.
+constexpr uint64_t kObjectsPerPolygon = 4, kCornersPerPolygon = 8, kReadsPerPolygon = 64;
+
 // One limit on the command line.
 struct LimitRow {
   std::string_view flag;

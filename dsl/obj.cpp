@@ -159,8 +159,10 @@ bool read_obj(Messages& messages, uint32_t file, ObjMesh& mesh) {
   const auto errors = [&] { return messages.error_count - errors_before; };
   std::string_view keyword;
   // A file that is no OBJ at all would have an error in every line.
+  const uint64_t polygons = messages.limits.polygons;
   while (errors() < kErrorsShown && next_statement(reader.statements, keyword)) {
-    if (mesh.face_count() >= messages.limits.polygons && is_face(keyword)) {
+    if (mesh.position.size() > kCornersPerPolygon * polygons ||
+        (mesh.face_count() >= polygons && is_face(keyword))) {
       report(reader, keyword, "too-many-polygons",
              fmt::format("more than the limit of {}", limit_text(messages.limits, &Limits::polygons)));
       return false;

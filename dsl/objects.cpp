@@ -57,9 +57,6 @@ uint32_t add_object(uint32_t node, const Inherited& own, bool is_mesh, ObjectTab
   return static_cast<uint32_t>(objects.size() - 1);
 }
 
-// Objects that hold no polygons cost time, and polygons of many corners memory.
-constexpr uint64_t kObjectsPerPolygon = 4, kCornersPerPolygon = 8;
-
 // Reports the first of too many polygons, and then no more.
 void check_counts(const Context& context, uint32_t node, SceneObjects& scene) {
   const uint64_t polygons = context.messages.limits.polygons;

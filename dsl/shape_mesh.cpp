@@ -64,11 +64,14 @@ void build_mesh(const ShapeInput& input) {
   if (!mesh) return;
   const ObjMesh& obj = mesh->obj;
   const Limits& limits = input.context.messages.limits;
-  uint64_t count = 0;
-  if (__builtin_mul_overflow(obj.face_count(), input.context.copies, &count) || count > limits.polygons) {
+  uint64_t count = 0, corners_count = 0;
+  if (__builtin_mul_overflow(obj.face_count(), input.context.copies, &count) || count > limits.polygons ||
+      __builtin_mul_overflow(obj.corner.size(), input.context.copies, &corners_count) ||
+      corners_count > kCornersPerPolygon * limits.polygons) {
     add_error(input.context.messages, place_of(input.context.tree, input.node), "too-many-polygons",
-              fmt::format("{} faces, {} times, take the scene above the limit of {}", obj.face_count(),
-                          input.context.copies, limit_text(limits, &Limits::polygons)));
+              fmt::format("{} faces of {} corners, {} times, take the scene above the limit of {}",
+                          obj.face_count(), obj.corner.size(), input.context.copies,
+                          limit_text(limits, &Limits::polygons)));
     return;
   }
   std::vector<uint32_t>& material = input.scene.meshes.material_rows[{input.node, input.own.material}];

@@ -19,8 +19,6 @@ constexpr KeyRow kRows[] = {
     {"of", kMap, true, "", 0, 0, "", "object", "The object; $i ($j, $k) in it is the copy's index, from 0."},
 };
 
-constexpr uint64_t kReadsPerPolygon = 64;  // of the limit: a copy is read anew, however little it makes
-
 struct Counts {
   int64_t each[3] = {1, 1, 1};
   bool is_list = false;

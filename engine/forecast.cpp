@@ -1,6 +1,6 @@
-// Counts to seconds and bytes. The constants were fitted to five scenes (boxes, rooms, a hall of 64 lamps, a
-// furnished room of 8,508 faces), each with 64 to 1,024 rays a row and 20 thousand to 2 million patches, on
-// one core of an AMD EPYC of 2020.
+// Counts to seconds and bytes. The constants were fitted to rooms, a hall of 64 lamps and a furnished room of
+// 8,508 faces, each with 64 to 1,024 rays a row and 20 thousand to 2 million patches, and looked at with
+// 100,820 faces of furniture, on one core of an AMD EPYC.
 #include "forecast.h"
 
 #include "rows.h"
@@ -22,45 +22,48 @@ constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
 
 constexpr double kFaceBytes = 400, kElementBytes = 190, kPatchBytes = 200, kRayBytes = 8;
 constexpr double kPatchesOfRooms = 12'000;  // beside one a face
+// Of the square root of the scene's area: smaller faces of meshes share rows.
+constexpr double kSharedSpan = 0.01;
 
 double cube_of_depth(const FaceTable& faces) {
   return std::pow(std::log2(static_cast<double>(faces.size()) + 1), 3);
 }
 
-// Faces that lamps are aimed from and their number; none where what emits is most of the scene: rows find it.
-struct Lamps {
-  double count = 0;
-  bool aimed = false;
+struct Counts {
+  double lamps = 0;        // faces that emit
+  bool are_aimed = false;  // not where what emits is most of the scene: rows find it
+  double rows = 0;         // that faces need, whole or in part
 };
-Lamps find_lamps(const FaceTable& faces) {
+Counts count_faces(const FaceTable& faces) {
   const FaceFrameTable frames = make_face_frames(faces);
   double lit = 0, all = 0;
-  Lamps lamps;
+  for (uint32_t f = 0; f < faces.size(); ++f) all += double{cell_area(frames, f, 0, 0)};
+  Counts counts;
   for (uint32_t f = 0; f < faces.size(); ++f) {
     const double area = double{cell_area(frames, f, 0, 0)};
-    all += area;
+    counts.rows += faces.surface[f] == kNone ? 1 : std::min(1.0, area / (all * kSharedSpan * kSharedSpan));
     if (largest(faces.emission[f]) <= 0) continue;
     lit += area;
-    ++lamps.count;
+    ++counts.lamps;
   }
-  lamps.aimed = lamps.count > 0 && lit < all / 2;
-  return lamps;
+  counts.are_aimed = counts.lamps > 0 && lit < all / 2;
+  return counts;
 }
 
 // A mesh starts with so many elements. Shadow edges grow as the square root of their number, and what is
 // smooth does not grow.
-double forecast_elements(double start, double patches, const Lamps& lamps, const SolverSettings& settings) {
+double forecast_elements(double start, double patches, const Counts& counts, const SolverSettings& settings) {
   constexpr double kAlongEdges = 800;
-  const double refined = lamps.aimed ? kAlongEdges * std::sqrt(start) : 0;
+  const double refined = counts.are_aimed ? kAlongEdges * std::sqrt(start) : 0;
   const double most = std::max(start, static_cast<double>(settings.patch_count_max));
   return std::min(std::max(start, patches) + refined, most);
 }
 
 // Rays to lamps from all elements: fewer for each lamp where there are many.
-double forecast_lamp_rays(double elements, const Lamps& lamps, double rays) {
-  if (!lamps.aimed) return 0;
-  const double count = std::min(lamps.count, static_cast<double>(kAimedLampsMax));
-  return elements * 110 * std::pow(count, 0.37) * std::pow(rays / 256, 0.4);
+double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
+  if (!counts.are_aimed) return 0;
+  const double lamps = std::min(counts.lamps, static_cast<double>(kAimedLampsMax));
+  return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 256, 0.4);
 }
 
 }  // namespace
@@ -71,20 +74,22 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings) 
   const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
   const double rays = make_row_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
   const double row_ray = kRowRay + kRowRayOfDepth * depth;
-  const Lamps lamps = find_lamps(faces);
+  const Counts counts = count_faces(faces);
   Forecast forecast;
   const double factor = find_size_factor(settings);
-  forecast.patches = face_count + std::min((budget - face_count) / 2, kPatchesOfRooms / (factor * factor));
-  forecast.elements = forecast_elements(start, forecast.patches, lamps, settings);
-  const double row_rays = forecast.patches * rays;
-  const double lamp_rays = forecast_lamp_rays(forecast.elements, lamps, rays);
+  const double more = std::min((budget - face_count) / 2, kPatchesOfRooms / (factor * factor));
+  forecast.patches = face_count + more;
+  forecast.rows = counts.rows + more;
+  forecast.elements = forecast_elements(start, forecast.patches, counts, settings);
+  const double row_rays = forecast.rows * rays;
+  const double lamp_rays = forecast_lamp_rays(forecast.elements, counts, rays);
   const double later_passes = std::max(0.0, settings.pass_count_max - 2.0);
   forecast.rays = row_rays * (1 + kAimedShare) + lamp_rays;
   forecast.seconds = 1e-6 * (row_rays * row_ray * (1 + kAimedShare) +
                              lamp_rays * (kLampRay + kLampRayOfDepth * depth) + forecast.elements * kElement +
                              later_passes * row_rays * (settings.keep_rows ? kKeptRay : row_ray));
   forecast.bytes = face_count * kFaceBytes + forecast.elements * kElementBytes +
-                   forecast.patches * (kPatchBytes + (settings.keep_rows ? rays * kRayBytes : 0));
+                   forecast.patches * kPatchBytes + (settings.keep_rows ? row_rays * kRayBytes : 0);
   return forecast;
 }
 

@@ -11,6 +11,7 @@ namespace patchlight {
 struct Forecast {
   double elements = 0;  // when all rounds are done
   double patches = 0;   // that carry light between surfaces
+  double rows = 0;      // of rays from them; small ones share
   double rays = 0;      // of rows and to lamps
   double seconds = 0;
   double bytes = 0;

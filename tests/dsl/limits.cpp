@@ -7,6 +7,9 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace patchlight::test {
 namespace {
 
@@ -151,6 +154,29 @@ TEST_CASE("the bytes of meshes are those of all OBJ and MTL files, their faces a
   check_border(folder, two, &Limits::polygons, 2, "too-many-polygons");
   const std::string copies = kShort + "  - {repeat: {count: 3, step: [2,0,0], of: {mesh: m.obj}}}\n";
   check_border(folder, copies, &Limits::polygons, 6, "too-many-polygons");
+}
+
+TEST_CASE("vertices and corners of a mesh are bounded by the polygons that they might be") {
+  const Folder folder;
+  std::string obj, many;
+  for (int k = 0; k < 17; ++k) many += fmt::format("v {} 0 0\n", k);
+  for (int k = 0; k < 16; ++k) {
+    const double angle = k * std::numbers::pi / 8;
+    obj += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+  }
+  obj += "f 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16\n";
+  testing::write_bytes(folder / "m.obj", obj);
+  testing::write_bytes(folder / "many.obj", many + "f 1 2 3\n");
+  check_border(folder, kShort + "  - {mesh: m.obj}\n", &Limits::polygons, 2, "too-many-polygons");
+  check_border(folder, kShort + "  - {repeat: {count: 3, step: [0,0,1], of: {mesh: m.obj}}}\n",
+               &Limits::polygons, 6, "too-many-polygons");
+  Limits limits;
+  limits.polygons = 2;
+  const Loaded loaded = load_file(folder, kShort + "  - {mesh: many.obj}\n", limits);
+  REQUIRE(loaded.errors.size() == 1);
+  CHECK(loaded.errors[0].slug == "too-many-polygons");
+  CHECK(loaded.errors[0].file == "many.obj");
+  CHECK(loaded.errors[0].line == 18);
 }
 
 TEST_CASE("a number of copies that no integer holds is refused, not wrapped") {

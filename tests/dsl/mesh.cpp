@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 namespace patchlight::test {
@@ -361,7 +360,7 @@ TEST_CASE("copies of a mesh beyond the limit are refused before they are made") 
   check_message(loaded.errors, "too-many-polygons", folder / "scene.yaml", 7, 56, "1000000");
 }
 
-TEST_CASE("50 k triangles load in a moment") {
+TEST_CASE("50 k triangles load, each in its place") {
   std::string text;
   constexpr int kSide = 159;
   for (int y = 0; y <= kSide; ++y)
@@ -371,12 +370,16 @@ TEST_CASE("50 k triangles load in a moment") {
       const int a = y * (kSide + 1) + x + 1, b = a + 1, c = a + kSide + 1, d = c + 1;
       text += fmt::format("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\nf {1} {3} {2}\n", a, c, b, d);
     }
-  const auto start = std::chrono::steady_clock::now();
   const Loaded loaded = load_obj(text);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   REQUIRE(loaded.errors.empty());
   CHECK(mesh_faces(loaded) == 2 * kSide * kSide);
-  CHECK(seconds.count() < 20);  // 0.1 as released on a machine of today; sanitizers are slow
+  for (uint32_t k = 0; k < kSide * kSide; k += 997) {
+    const uint32_t x = k % kSide, y = k / kSide;
+    const DVec3 first = corner_in_file(loaded.scene, 1 + 2 * k, 0);
+    // Half a unit of single precision at the scene's size of 159.
+    CHECK(glm::length(first - DVec3(x, 0.01 * ((x * y) % 7), y)) < 1e-5);
+  }
+  CHECK(mesh_ids(loaded).back() == fmt::format("m.{}", 2 * kSide * kSide - 1));
 }
 
 }  // namespace
