@@ -56,10 +56,11 @@ Utf8Character decode(std::string_view text) {
   return {code, length};
 }
 
-// Characters that do something to a terminal or to the order of the text around them.
+// Characters that do something to a terminal or to the order of the text around them, and blanks that look
+// like others.
 bool unsafe_to_print(uint32_t code) {
-  return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c ||
-         (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+  return code < 0x20 || (code >= 0x7f && code <= 0xa0) || code == 0xad || code == 0x61c || code == 0x180e ||
+         (code >= 0x2000 && code <= 0x200f) || (code >= 0x2028 && code <= 0x202f) ||
          (code >= 0x2060 && code <= 0x206f) || code == 0xfeff || (code >= 0xfff9 && code <= 0xfffb) ||
          (code >= 0xe0000 && code <= 0xe007f);
 }

@@ -51,8 +51,11 @@ void read_expectations(const Context& context, uint32_t list, Scene& scene) {
     if (!map.good) continue;
     Expectation expectation;
     const uint32_t name = value_of(map, "object").node;
+    const Place place = place_of(tree, child);
     expectation.object = text_of(tree, name);
-    expectation.line = tree.nodes[child].line;
+    expectation.file = context.messages.files[place.file].name;
+    expectation.line = place.line;
+    expectation.column = place.column;
     expectation.polygons = find_polygons(scene.polygons, sorted, expectation.object);
     if ((count += expectation.polygons.size()) > kMatchesPerPolygon * limits.polygons) {
       add_error(context.messages, place_of(tree, name), "too-many-polygons",
@@ -67,10 +70,16 @@ void read_expectations(const Context& context, uint32_t list, Scene& scene) {
                                    : std::string{};
       add_error(context.messages, place_of(tree, name), "bad-id",
                 fmt::format("no object '{}'{}", escape_text(expectation.object),
-                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+                            near.empty() ? "" : fmt::format("; did you mean '{}'?", escape_text(near))));
       continue;
     }
-    expectation.pass = static_cast<uint32_t>(value_of(map, "pass").integer[0]);
+    const uint32_t pass_node = value_of(map, "pass").node, pass_last = scene.solver.pass_count_max;
+    expectation.after_last = pass_node == kNone;
+    expectation.pass =
+        expectation.after_last ? pass_last : static_cast<uint32_t>(value_of(map, "pass").integer[0]);
+    if (expectation.pass > pass_last)
+      add_error(context.messages, place_of(tree, pass_node), "snapshot-beyond-passes",
+                fmt::format("pass {} is to be checked, but 'passes' is {}", expectation.pass, pass_last));
     expectation.radiosity = Rgb(vec3_of(value_of(map, "radiosity")));
     expectation.tolerance = value_of(map, "tolerance").number[0];
     scene.expectations.push_back(std::move(expectation));

@@ -35,7 +35,7 @@ struct Parser {
     fail(at, "expression-syntax", fmt::format("expected {}, found {} in the expression", expected, found));
   }
   void skip_blanks() {
-    while (at < text.size() && text[at] == ' ') ++at;
+    while (at < text.size() && (text[at] == ' ' || text[at] == '\t' || text[at] == '\n')) ++at;
   }
   bool take(char c) {
     skip_blanks();
@@ -118,7 +118,7 @@ double parse_primary(Parser& parser) {
   const char* begin = parser.text.data() + parser.at;
   const auto [end, error] = std::from_chars(begin, parser.text.data() + parser.text.size(), value);
   if (error == std::errc::invalid_argument) parser.fail_syntax("a number");
-  if (error == std::errc::result_out_of_range)
+  if (error == std::errc::result_out_of_range && !is_tiny(std::string_view(begin, end)))
     parser.fail(parser.at, "number-out-of-range", "this number is too large");
   parser.at += static_cast<size_t>(end - begin);
   return value;

@@ -186,7 +186,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const bool two_sided = objects.two_sided[object] != 0;
   const auto emission = Rgb(materials.emission[material]);
   const auto reflectance = Rgb(materials.reflectance[material]);
-  const auto patch_size = static_cast<float>(objects.patch_size[object] / scene.units_per_length);
+  const auto patch_size = to_patch_size(objects.patch_size[object] / scene.units_per_length);
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
   convert_faces(table, p, scene, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());

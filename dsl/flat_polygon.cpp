@@ -2,6 +2,7 @@
 #include "flat_polygon.h"
 
 #include "limits.h"
+#include "number.h"
 #include "plane_check.h"
 #include "ring_check.h"
 
@@ -15,7 +16,9 @@ namespace {
 
 constexpr double kRepeated = 1e-9;  // corners nearer than this are one, in units of the polygon's size
 
-std::string corner_text(DVec3 p) { return fmt::format("[{:g}, {:g}, {:g}]", p.x, p.y, p.z); }
+std::string corner_text(DVec3 p) {
+  return fmt::format("[{}, {}, {}]", number_text(p.x), number_text(p.y), number_text(p.z));
+}
 
 // The place of a corner in the file, where the ring is a list of corners; else of what stands for the ring.
 Place corner_place(const Tree& tree, const OutlineTable& outlines, uint32_t ring, uint32_t corner) {
@@ -159,9 +162,10 @@ bool copy_rings(Subject& subject, FlatPolygon& polygon) {
     for (uint32_t k = outlines.ring_first[ring]; k < outlines.ring_first[ring + 1]; ++k) {
       const DVec3 point = outlines.corners[k];
       if (!(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) <= kCoordinateMax))
-        return report(subject, corner_place(subject.tree, outlines, ring, k - outlines.ring_first[ring]),
-                      "coordinate-too-large",
-                      fmt::format("{} is beyond the limit of {:g}", corner_text(point), kCoordinateMax));
+        return report(
+            subject, corner_place(subject.tree, outlines, ring, k - outlines.ring_first[ring]),
+            "coordinate-too-large",
+            fmt::format("{} is beyond the limit of {}", corner_text(point), number_text(kCoordinateMax)));
       low = glm::min(low, point);
       high = glm::max(high, point);
     }
@@ -211,8 +215,24 @@ bool is_convex_and_small(const FlatPolygon& polygon) {
   return true;
 }
 
+// False after zero-area: a hole whose corners lie on a line.
+bool check_hole_areas(const Subject& subject, const FlatPolygon& polygon) {
+  for (uint32_t ring = 1; ring < polygon.ring_count(); ++ring) {
+    FlatPolygon hole;
+    hole.points.assign(polygon.points.begin() + polygon.ring_first[ring],
+                       polygon.points.begin() + polygon.ring_first[ring + 1]);
+    for (const DVec3& point : hole.points)
+      hole.size = std::max(hole.size, glm::length(point - hole.points[0]));
+    if (is_on_line(hole))
+      return report(subject, subject.ring_place(ring), "zero-area",
+                    "the hole has no area: its corners lie on a line");
+  }
+  return true;
+}
+
 bool check_outline(const Subject& subject, const FlatPolygon& polygon) {
   if (is_convex_and_small(polygon)) return true;
+  if (!check_hole_areas(subject, polygon)) return false;
   const RingCheck check = check_rings(polygon);
   if (check.fault == RingFault::kNoFault) return true;
   const FaultText text = fault_text(check.fault);

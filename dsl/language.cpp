@@ -10,21 +10,29 @@ namespace patchlight {
 namespace {
 
 using enum ValueType;
+using enum RuleKind;
 
 constexpr KeyRow kSceneRows[] = {
-    {"patchlight", kInteger, false, "", 1, 1e9, "out-of-range", "", "Version of the language: 1. Required."},
+    {"patchlight", kVersion, false, "", 1, kAnyInteger, "out-of-range", "",
+     "Version of the language: 1. Required in the scene itself."},
     {"title", kText, false, "", 0, 0, "", "", "What the scene is called."},
     {"units", kChoice, false, "m", 0, 0, "bad-unit", "m|cm|mm|ft|in", "Unit of all lengths in the file."},
     {"let", kMap, false, "", 0, 0, "", "*", "Variables by name: numbers or expressions, in any order."},
-    {"include", kList, false, "", 0, 0, "", "include",
+    {"include", kIncludes, false, "", 0, 0, "", "include",
      "Files whose variables, materials and objects are added."},
     {"materials", kMap, false, "", 0, 0, "", "*material", "Materials by name."},
-    {"objects", kList, false, "", 0, 0, "", "object", "The things in the scene. Required."},
-    {"camera", kMap, false, "", 0, 0, "", "camera", "The camera, where one is enough."},
+    {"objects", kList, false, "", 0, 0, "", "object",
+     "The things in the scene; one at least, here or in an included file."},
+    {"camera", kMap, false, "", 0, 0, "", "camera",
+     "The camera, where one is enough. Absent: one that fits the scene."},
     {"cameras", kList, false, "", 0, 0, "", "camera", "Several cameras, each with a name."},
     {"solver", kMap, false, "", 0, 0, "", "solver", "How the light is computed."},
     {"output", kMap, false, "", 0, 0, "", "output", "What the pictures look like."},
-    {"expect", kList, false, "", 0, 0, "", "expect", "Radiosities that the solution is checked against."},
+    {"expect", kList, false, "", 0, 0, "", "expect",
+     "Radiosities that `patchlight verify` compares the solution with."},
+};
+constexpr KeyRule kSceneRules[] = {
+    {kExcludes, "camera", "cameras", "ambiguous-shape", "a scene has either 'camera' or 'cameras'"},
 };
 
 constexpr KeyRow kIncludeRows[] = {
@@ -35,40 +43,51 @@ constexpr KeyRow kIncludeRows[] = {
 constexpr KeyRow kTransformRows[] = {
     {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "", "Shift by [x, y, z]."},
     {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn about an axis through the origin: {axis, angle}."},
-    {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]; negative ones mirror."},
+    {"scale", kScale, false, "", 0, 0, "", "",
+     "Stretch by a number or [x, y, z]; negative ones mirror, none is 0."},
+};
+
+constexpr std::string_view kOneStep = "a step of a transform is one of translate, rotate, scale";
+constexpr KeyRule kTransformRules[] = {
+    {kOneOf, "translate|rotate|scale", "", "missing-key", kOneStep},
+    {kExcludes, "translate", "rotate|scale", "ambiguous-shape", kOneStep},
+    {kExcludes, "rotate", "scale", "ambiguous-shape", kOneStep},
 };
 
 constexpr KeyRow kRotateRows[] = {
-    {"axis", kAny, true, "", 0, 0, "", "", "x, y, z or a direction [x, y, z]."},
+    {"axis", kAxis, true, "", 0, 0, "", "x|y|z", "Axis of the turn: x, y, z or a direction [x, y, z]."},
     {"angle", kNumber, true, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "Degrees, counter-clockwise seen against the axis."},
 };
 
 constexpr KeyRow kExpectRows[] = {
     {"object", kText, true, "", 0, 0, "", "",
-     "Id of an object or of one of its polygons: their area mean is checked."},
-    {"pass", kInteger, false, "16", 0, kPassesMax, "out-of-range", "", "After which pass."},
-    {"radiosity", kRgb, true, "", 0, kAnyNumber, "out-of-range", "", "W/m2: a number or [r, g, b]."},
+     "Id of an object or of one of its polygons, such as hall.floor: their area mean is compared."},
+    {"pass", kInteger, false, "", 0, kPassesMax, "out-of-range", "",
+     "After which pass. Absent: after the last one."},
+    {"radiosity", kRgb, true, "", 0, kAnyNumber, "out-of-range", "",
+     "What the solution should show, W/m2: a number or [r, g, b]."},
     {"tolerance", kNumber, false, "0.02", 0, 1, "out-of-range", "",
      "Allowed difference, as a share of the largest channel."},
 };
 
 constexpr KeyRow kMaterialRows[] = {
     {"reflectance", kRgb, false, "0", 0, 1, "reflectance-range", "",
-     "Share of light that is reflected, 0..1."},
+     "Share of light that is reflected, 0..1: a number or [r, g, b]."},
     {"emission", kRgb, false, "0", 0, kEmissionMax, "emission-range", "",
-     "Light given off: exitance in W/m2, which is radiance times pi."},
+     "Light given off: exitance in W/m2, which is radiance times pi; a number or [r, g, b]."},
 };
 
 constexpr KeyRow kCameraRows[] = {
-    {"name", kName, false, "", 0, 0, "bad-name", "", "Name, part of the picture's file name."},
+    {"name", kName, false, "", 0, 0, "bad-name", "",
+     "Name, part of the picture's file name. Required where there are several."},
     {"eye", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
      "Where the camera stands."},
     {"target", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
-     "What it looks at."},
+     "The point that it looks at."},
     {"up", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "What is up in the picture."},
     {"fov", kNumber, false, "60", 0.01, 175, "out-of-range", "", "Vertical field of view, degrees."},
-    {"size", kIntegers2, false, "960 720", 1, 1e9, "out-of-range", "",
+    {"size", kIntegers2, false, "960 720", 1, kAnyInteger, "out-of-range", "",
      "Width and height of the picture, pixels."},
 };
 
@@ -86,12 +105,13 @@ constexpr KeyRow kSolverRows[] = {
     {"rays", kInteger, false, "256", 1, 1e6, "out-of-range", "", "Rays a row of form factors."},
     {"quality", kNumber, false, "1", kQualityMin, kQualityMax, "out-of-range", "",
      "More rays and smaller patches at once: about so many times the time."},
-    {"seed", kInteger, false, "1", 0, 4e18, "out-of-range", "", "Another seed, other samples."},
+    {"seed", kInteger, false, "1", 0, kAnyInteger, "out-of-range", "", "Another seed, other samples."},
 };
 
 constexpr KeyRow kOutputRows[] = {
-    {"snapshots", kList, false, "", 0, 0, "", "", "Passes that are shown as pictures. Absent: 1, 2, 16."},
-    {"exposure", kAny, false, "auto", -100, 100, "out-of-range", "",
+    {"snapshots", kIntegers, false, "", 1, kPassesMax, "out-of-range", "",
+     "Passes that are shown as pictures. Absent: 1, 2, 16, as far as they are run."},
+    {"exposure", kNumberOrWord, false, "auto", -100, 100, "out-of-range", "auto",
      "auto, or an exposure value: shown is B times 2 to this power, 1 is white."},
     {"shading", kChoice, false, "smooth", 0, 0, "bad-name", "smooth|flat",
      "smooth, or flat to show the patches."},
@@ -100,22 +120,30 @@ constexpr KeyRow kOutputRows[] = {
 };
 
 constexpr KeyRow kSharedObjectRows[] = {
-    {"id", kName, false, "", 0, 0, "bad-id", "", "Name of the object. Absent: object1, object2 ..."},
-    {"material", kText, false, "", 0, 0, "", "", "Name of its material."},
-    {"holes", kList, false, "", 0, 0, "", "", "With polygon: lists of corners, each one a hole."},
-    {"materials", kMap, false, "", 0, 0, "", "*",
-     "With mesh: materials by the names that the OBJ file gives them."},
+    {"id", kName, false, "", 0, 0, "bad-id", "",
+     "Name of the object. Absent: object1, object2 ... by place."},
+    {"material", kText, false, "", 0, 0, "", "",
+     "Name of its material. Required, but for meshes, for rooms that name all walls, and inside of groups."},
+    {"holes", kRings, false, "", 0, 0, "", "", "Beside polygon: lists of corners, each one a hole."},
+    {"materials", kMap, false, "", 0, 0, "", "*text",
+     "Beside mesh: materials by the names that the OBJ file gives them."},
     {"transform", kList, false, "", 0, 0, "", "transform",
      "Steps in order, each one of translate, rotate, scale."},
     {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Shift, after scale and rotate."},
-    {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn, after scale: {axis, angle}."},
-    {"scale", kAny, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]."},
+     "Shift by [x, y, z], after scale and rotate."},
+    {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn after scale: {axis, angle}."},
+    {"scale", kScale, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]; negative ones mirror."},
     {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
     {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Longest edge of a starting patch on this object."},
-    {"subdivide", kInteger, false, "", 1, 1e9, "out-of-range", "",
-     "At least n times n patches on each polygon."},
+     "Longest edge of a starting patch on this object. Absent: as the solver says."},
+    {"subdivide", kInteger, false, "1", 1, kAnyInteger, "out-of-range", "",
+     "At least n times n patches on each polygon to start with."},
+};
+constexpr KeyRule kObjectRules[] = {
+    {kNeeds, "holes", "polygon", "unknown-key", "'holes' goes with 'polygon' only"},
+    {kNeeds, "materials", "mesh", "unknown-key", "'materials' goes with 'mesh' only"},
+    {kExcludes, "translate|rotate|scale", "transform", "ambiguous-shape",
+     "an object has either 'transform' or the short keys translate, rotate, scale"},
 };
 
 // The shared rows and one a shape, joined once.
@@ -125,8 +153,8 @@ std::span<const KeyRow> object_rows() {
     for (const ShapeRow& shape : shape_rows()) {
       KeyRow row;
       row.key = shape.name;
-      row.type = kAny;
-      if (shape.keys) row.choices = shape.keys->name;
+      row.type = shape.type;
+      row.choices = shape.keys ? shape.keys->name : shape.type == kList ? "object" : "";
       row.description = shape.description;
       all.push_back(row);
     }
@@ -137,9 +165,9 @@ std::span<const KeyRow> object_rows() {
 
 }  // namespace
 
-const KeyTable kSceneKeys = {"scene", kSceneRows};
+const KeyTable kSceneKeys = {"scene", kSceneRows, kSceneRules};
 const KeyTable kIncludeKeys = {"include", kIncludeRows};
-const KeyTable kTransformKeys = {"transform", kTransformRows};
+const KeyTable kTransformKeys = {"transform", kTransformRows, kTransformRules};
 const KeyTable kRotateKeys = {"rotate", kRotateRows};
 const KeyTable kExpectKeys = {"expect", kExpectRows};
 const KeyTable kMaterialKeys = {"material", kMaterialRows};
@@ -148,7 +176,7 @@ const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};
 
 const KeyTable& object_keys() {
-  static const KeyTable table = {"object", object_rows()};
+  static const KeyTable table = {"object", object_rows(), kObjectRules};
   return table;
 }
 
@@ -158,6 +186,7 @@ std::span<const KeyTable* const> language_tables() {
                                         &object_keys(), &kTransformKeys, &kRotateKeys};
     for (const ShapeRow& shape : shape_rows())
       if (shape.keys) all.push_back(shape.keys);
+    all.push_back(&kWallKeys);
     for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys, &kExpectKeys})
       all.push_back(table);
     return all;

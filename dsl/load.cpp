@@ -73,9 +73,6 @@ void read_settings(const Context& context, const MapValues& map, Scene& scene) {
   const auto unit = static_cast<size_t>(value_of(map, "units").integer[0]);
   scene.units = kUnitNames[unit];
   scene.metres_per_unit = kUnitMetres[unit];
-  if (has(map, "camera") && has(map, "cameras"))
-    add_error(context.messages, place_of(tree, value_of(map, "cameras").node), "ambiguous-shape",
-              "a scene has either 'camera' or 'cameras'");
   if (const uint32_t node = node_of(tree, map, "camera", NodeKind::kMap); node != kNone)
     read_camera(context, node, scene.cameras);
   if (const uint32_t node = node_of(tree, map, "cameras", NodeKind::kList); node != kNone)
@@ -87,10 +84,10 @@ void read_settings(const Context& context, const MapValues& map, Scene& scene) {
 }
 
 void check_not_empty(const Context& context, const MapValues& map, const SceneObjects& objects) {
-  if (objects.objects.size() > 0 || context.messages.error_count > 0) return;
+  if (objects.outlines.size() > 0 || context.messages.error_count > 0) return;
   const uint32_t list = value_of(map, "objects").node;
   add_error(context.messages, place_of(context.tree, list != kNone ? list : map.node), "empty-scene",
-            "the scene has no objects");
+            objects.objects.size() > 0 ? "the scene's objects have no polygons" : "the scene has no objects");
 }
 
 void warn_of_materials(const Context& context, const MaterialTable& materials, uint32_t root) {
@@ -115,8 +112,8 @@ void convert_lengths(Scene& scene) {
     camera.eye = place(camera.eye);
     camera.target = place(camera.target);
   }
-  scene.solver.patch_size = static_cast<float>(scene.solver.patch_size / scene.units_per_length);
-  scene.solver.patch_size_min = static_cast<float>(scene.solver.patch_size_min / scene.units_per_length);
+  scene.solver.patch_size = to_patch_size(scene.solver.patch_size / scene.units_per_length);
+  scene.solver.patch_size_min = to_patch_size(scene.solver.patch_size_min / scene.units_per_length);
 }
 
 Scene compile(Messages& messages, const std::string& path, const LoadOptions& options,

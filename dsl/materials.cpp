@@ -50,11 +50,13 @@ uint32_t find_material(const Context& context, uint32_t node, MaterialTable& mat
   if (wants_errors(context.messages)) {
     const std::vector<std::string> names(
         materials.name.begin(), materials.name.begin() + static_cast<ptrdiff_t>(materials.named_count));
-    if (const std::string near = did_you_mean(name, names); !near.empty())
-      message += fmt::format("; did you mean '{}'?", near);
+    const std::string near = did_you_mean(name, names);
+    if (!near.empty()) message += fmt::format("; did you mean '{}'?", escape_text(near));
     std::string known;
-    for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k) known += (k ? ", " : "") + names[k];
-    message += names.empty() ? "; the scene has no materials" : fmt::format(" known: {}", known);
+    for (size_t k = 0; k < std::min<size_t>(names.size(), 12); ++k)
+      known += (k ? ", " : "") + escape_text(names[k]);
+    message += names.empty() ? "; the scene has no materials"
+                             : fmt::format("{} known: {}", near.empty() ? ";" : "", known);
     if (names.size() > 12) message += ", ...";
   }
   add_error(context.messages, place_of(context.tree, node), "unknown-material", std::move(message));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -62,11 +63,12 @@ bool evaluate_integer(const Context& context, uint32_t node, int64_t& value) {
   const double whole = std::round(number);
   if (std::abs(number - whole) > 1e-9 * std::max(1.0, std::abs(whole))) {
     report(context, node, "expected-integer",
-           fmt::format("expected a whole number, the expression gives {:g}", number));
+           fmt::format("expected a whole number, the expression gives {}", number_text(number)));
     return false;
   }
   if (std::abs(whole) > static_cast<double>(kIntegerMax)) {
-    report(context, node, "number-out-of-range", fmt::format("{:g} is too large for a whole number", number));
+    report(context, node, "number-out-of-range",
+           fmt::format("{} is too large for a whole number", number_text(number)));
     return false;
   }
   value = static_cast<int64_t>(whole);
@@ -83,6 +85,29 @@ bool report_ambiguous(const Context& context, uint32_t node, std::string_view te
 }
 
 }  // namespace
+
+std::string number_text(double number) {
+  if (std::abs(number) < 1e15 && number == std::floor(number)) return fmt::format("{:.0f}", number);
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, number).ptr);
+}
+
+bool is_tiny(std::string_view digits) {
+  if (digits.starts_with('-')) digits.remove_prefix(1);
+  const size_t e = std::min(digits.find_first_of("eE"), digits.size());
+  const std::string_view mantissa = digits.substr(0, e);
+  const size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const size_t first = std::min(mantissa.find_first_of("123456789"), mantissa.size());
+  int64_t exponent = 0;
+  if (e < digits.size()) {
+    const bool negative = digits.substr(e + 1).starts_with('-');
+    const char* begin = digits.data() + e + 1 + (negative || digits.substr(e + 1).starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, digits.data() + digits.size(), exponent);
+    if (error == std::errc::result_out_of_range) return negative;
+    if (negative) exponent = -exponent;
+  }
+  return exponent < static_cast<int64_t>(first) - static_cast<int64_t>(point);
+}
 
 bool report_null(const Context& context, uint32_t node, std::string_view expected) {
   if (context.tree.nodes[node].kind != NodeKind::kNull) return false;
@@ -103,9 +128,8 @@ bool read_number(const Context& context, uint32_t node, double& value) {
   }
   if (report_ambiguous(context, node, text)) return false;
   if (error == std::errc::result_out_of_range) {
-    const size_t exponent = text.find_first_of("eE");
-    if (exponent != std::string_view::npos && text.substr(exponent + 1).starts_with('-')) {
-      value = 0;  // too small for a double
+    if (is_tiny(text)) {
+      value = 0;
       return true;
     }
     report(context, node, "number-out-of-range",

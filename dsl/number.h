@@ -38,6 +38,12 @@ bool read_three(const Context& context, uint32_t node, std::string_view slug, do
 // Reads two numbers [a, b]; anything else is expected-list.
 bool read_two(const Context& context, uint32_t node, double (&value)[3]);
 
+// A number for messages: whole ones in full, others as short as tells them from all others.
+std::string number_text(double number);
+
+// True for a decimal number that from_chars refuses because it is too near to 0; its value is 0.
+bool is_tiny(std::string_view digits);
+
 // Reports null-value at an empty node and returns true, or returns false.
 bool report_null(const Context& context, uint32_t node, std::string_view expected);
 

@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <deque>
+#include <limits>
 #include <unordered_map>
 
 namespace patchlight {
@@ -41,7 +44,8 @@ bool read_own(const Context& context, const MapValues& map, MaterialTable& mater
   if (has(map, "two_sided")) own.two_sided = value_of(map, "two_sided").integer[0] != 0;
   if (has(map, "patch_size")) own.patch_size = value_of(map, "patch_size").number[0];
   if (has(map, "subdivide")) {
-    own.subdivide = static_cast<uint32_t>(value_of(map, "subdivide").integer[0]);
+    own.subdivide = static_cast<uint32_t>(
+        std::min<int64_t>(value_of(map, "subdivide").integer[0], std::numeric_limits<uint32_t>::max()));
     own.subdivide_node = value_of(map, "subdivide").node;
   }
   return true;
@@ -71,6 +75,15 @@ void check_counts(const Context& context, uint32_t node, SceneObjects& scene) {
                         plain ? "" : what));
 }
 
+void report_duplicate_id(const Context& context, uint32_t node, std::string_view id, uint32_t first) {
+  const Place place = place_of(context.tree, node), before = place_of(context.tree, first);
+  const std::string file =
+      before.file == place.file ? "" : escape_text(context.messages.files[before.file].name, 200) + ":";
+  add_error(context.messages, place, "duplicate-id",
+            fmt::format("the id '{}' is taken: first defined at {}{}:{}", escape_text(id), file, before.line,
+                        before.column));
+}
+
 }  // namespace
 
 void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
@@ -80,16 +93,6 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   if (!map.good) return;
   const ShapeRow* shape = find_shape(context, map);
   if (!shape) return;
-  if (has(map, "holes") && shape->name != "polygon") {
-    add_error(context.messages, place_of(context.tree, value_of(map, "holes").node), "unknown-key",
-              fmt::format("'holes' goes with 'polygon', not with '{}'", shape->name));
-    return;
-  }
-  if (has(map, "materials") && shape->name != "mesh") {
-    add_error(context.messages, place_of(context.tree, value_of(map, "materials").node), "unknown-key",
-              fmt::format("'materials' goes with 'mesh', not with '{}'", shape->name));
-    return;
-  }
   Inherited own = inherited;
   if (!read_own(context, map, scene.materials, own)) return;
   Transform transform;
@@ -106,11 +109,29 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   check_counts(context, node, scene);
 }
 
+bool is_id_taken(const Context& context, uint32_t object, const std::string& prefix, IdTable& ids) {
+  const Tree& tree = context.tree;
+  if (tree.nodes[object].kind != NodeKind::kMap) return false;
+  for (uint32_t key = tree.nodes[object].first; key != kNone; key = tree.nodes[tree.nodes[key].next].next) {
+    if (text_of(tree, key) != "id") continue;
+    const uint32_t node = tree.nodes[key].next;
+    const std::string_view own = text_of(tree, node);
+    if (own.empty()) return false;
+    const auto [row, is_new] = ids.try_emplace(prefix + std::string(own), node);
+    // An alias of an object stands for the same id at another place.
+    if (!is_new) report_duplicate_id(context, row->second == node ? object : node, row->first, row->second);
+    return !is_new;
+  }
+  return false;
+}
+
 void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
   const Tree& tree = context.tree;
   size_t number = 0;
   for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next) {
-    read_object(context, child, {context.prefix, fmt::format("{}object{}", context.prefix, ++number)},
+    ++number;
+    if (is_id_taken(context, child, context.prefix, scene.ids)) continue;
+    read_object(context, child, {context.prefix, fmt::format("{}object{}", context.prefix, number)},
                 Inherited{}, scene);
     if (scene.is_full) return;
   }
@@ -119,15 +140,18 @@ void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
 void check_ids(const Context& context, const ObjectTable& objects, const OutlineTable& outlines) {
   std::unordered_map<std::string_view, uint32_t> first;
   first.reserve(outlines.size());
-  uint32_t reported = kNone;  // one message an object, however many parts it has
-  for (uint32_t p = 0; p < outlines.size(); ++p) {
-    const auto [row, is_new] = first.try_emplace(outlines.id[p], p);
-    if (is_new || outlines.object[p] == reported) continue;
+  std::deque<std::string> backs;  // ids of second sides
+  uint32_t reported = kNone;      // one message an object, however many parts it has
+  const auto check = [&](std::string_view id, uint32_t p) {
+    const auto [row, is_new] = first.try_emplace(id, p);
+    if (is_new || outlines.object[p] == reported) return;
     reported = outlines.object[p];
-    const Place before = place_of(context.tree, objects.node[outlines.object[row->second]]);
-    add_error(context.messages, place_of(context.tree, objects.node[outlines.object[p]]), "duplicate-id",
-              fmt::format("the id '{}' is taken: first defined at {}:{}", escape_text(outlines.id[p]),
-                          before.line, before.column));
+    report_duplicate_id(context, objects.node[outlines.object[p]], id,
+                        objects.node[outlines.object[row->second]]);
+  };
+  for (uint32_t p = 0; p < outlines.size(); ++p) {
+    check(outlines.id[p], p);
+    if (objects.two_sided[outlines.object[p]]) check(backs.emplace_back(outlines.id[p] + ".back"), p);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "outlines.h"
 
 #include <string>
+#include <unordered_map>
 
 namespace patchlight {
 
@@ -18,6 +19,9 @@ struct Inherited {
   uint32_t subdivide_node = kNone;
 };
 
+// Ids that were given in one list of objects, or in the lists `objects` of all files of one prefix.
+using IdTable = std::unordered_map<std::string, uint32_t>;  // to the node of the id
+
 // All that the objects of a scene become.
 struct SceneObjects {
   MaterialTable materials;
@@ -26,6 +30,7 @@ struct SceneObjects {
   OutlineTable outlines;
   uint64_t reads = 0;    // values that repeats read, each time anew
   bool is_full = false;  // there are more than the limits allow: it was told, and no more are added
+  IdTable ids;  // of the lists `objects`
 };
 
 // Reads all objects of a list, in the order of the file; ids get the context's prefix. Errors: missing-key,
@@ -37,11 +42,15 @@ struct ObjectName {
   std::string prefix, unnamed;
 };
 
+// True where the object's own id is taken in its list already: duplicate-id is reported. Else notes it.
+bool is_id_taken(const Context& context, uint32_t object, const std::string& prefix, IdTable& ids);
+
 // Reads one object, with all that stands in it.
 void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
                  SceneObjects& scene);
 
-// Reports polygons that share an id (duplicate-id).
+// Reports polygons of different objects that share an id (duplicate-id): those of object b and an object
+// b.floor.
 void check_ids(const Context& context, const ObjectTable& objects, const OutlineTable& outlines);
 
 }  // namespace patchlight

@@ -161,6 +161,10 @@ void scan_plain(Scan& scan) {
 // The blanks at the start of a line; false when a tab indents.
 bool scan_indent(Scan& scan) {
   while (scan.peek() == ' ') ++scan.at;
+  if (scan.text.substr(scan.at, 2) == "\xc2\xa0") {
+    scan.fail(scan.place(), "yaml-syntax", "a no-break space (U+00A0) may not indent YAML; use spaces");
+    return false;
+  }
   if (scan.peek() != '\t' || !scan.brackets.empty()) return true;
   const Place tab = scan.place();
   while (is_blank(scan.peek())) ++scan.at;

@@ -4,7 +4,9 @@
 #include "engine/settings.h"
 #include "engine/tables.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,12 +40,20 @@ struct OutputSettings {
 // What `verify` checks: the area mean of some polygons' radiosity after a pass.
 struct Expectation {
   std::string object;              // as the file names it
-  uint32_t line = 0;               // 1-based place in the file
+  std::string file;                // where it stands, for messages
+  uint32_t line = 0, column = 0;   // 1-based
   std::vector<uint32_t> polygons;  // rows of PolygonTable, at least one
   uint32_t pass = 16;
+  bool after_last = false;  // the file names no pass: `pass` is the last of the file's settings
   Rgb radiosity{0};         // W/m2
   double tolerance = 0.02;  // share of the largest channel
 };
+
+// A length of a setting as a float. 0 means automatic, so what is above 0 stays above 0, and finite.
+inline float to_patch_size(double length) {
+  using Limits = std::numeric_limits<float>;
+  return length > 0 ? static_cast<float>(std::clamp<double>(length, Limits::min(), Limits::max())) : 0.0f;
+}
 
 struct Scene {
   std::string file;  // as the user named it; <stdin> for -

@@ -51,7 +51,10 @@ bool check_camera(const Context& context, const MapValues& map, const Camera& ca
 
 void read_snapshots(const Context& context, uint32_t list, const SolverSettings& solver,
                     OutputSettings& output) {
-  const KeyRow row{"snapshots", ValueType::kInteger, false, "", 1, kPassesMax, "out-of-range", "", ""};
+  KeyRow row = row_of(kOutputKeys, "snapshots");
+  row.type = ValueType::kInteger;
+  if (context.tree.nodes[list].count == 0)
+    report(context, list, "expected-list", "'snapshots' names one pass at least; take it out for 1, 2, 16");
   for (uint32_t child = context.tree.nodes[list].first; child != kNone;
        child = context.tree.nodes[child].next) {
     Value value;
@@ -65,6 +68,19 @@ void read_snapshots(const Context& context, uint32_t list, const SolverSettings&
   std::sort(output.snapshots.begin(), output.snapshots.end());
   output.snapshots.erase(std::unique(output.snapshots.begin(), output.snapshots.end()),
                          output.snapshots.end());
+}
+
+void read_exposure(const Context& context, uint32_t node, OutputSettings& output) {
+  KeyRow row = row_of(kOutputKeys, "exposure");
+  row.type = ValueType::kNumber;
+  const std::string_view text = text_of(context.tree, node);
+  const bool word = !text.empty() && text.find_first_of("0123456789.=$") == std::string_view::npos;
+  Value value;
+  if (word)
+    report(context, node, "expected-number",
+           fmt::format("'exposure' is auto or a number; got {}", describe(context.tree, node)));
+  else if (read_value(context, node, row, value))
+    output.exposure_ev = value.number[0];
 }
 
 }  // namespace
@@ -110,8 +126,8 @@ void read_solver(const Context& context, uint32_t node, SolverSettings& solver) 
   solver.rays = static_cast<uint32_t>(value_of(map, "rays").integer[0]);
   solver.quality = static_cast<float>(value_of(map, "quality").number[0]);
   solver.seed = static_cast<uint64_t>(value_of(map, "seed").integer[0]);
-  solver.patch_size = static_cast<float>(value_of(map, "patch_size").number[0]);
-  solver.patch_size_min = static_cast<float>(value_of(map, "patch_size_min").number[0]);
+  solver.patch_size = to_patch_size(value_of(map, "patch_size").number[0]);
+  solver.patch_size_min = to_patch_size(value_of(map, "patch_size_min").number[0]);
 }
 
 void read_output(const Context& context, uint32_t node, const SolverSettings& solver,
@@ -123,9 +139,7 @@ void read_output(const Context& context, uint32_t node, const SolverSettings& so
     read_snapshots(context, list, solver, output);
   if (const uint32_t exposure = value_of(map, "exposure").node;
       exposure != kNone && text_of(context.tree, exposure) != "auto") {
-    const KeyRow row{"exposure", ValueType::kNumber, false, "", -100, 100, "out-of-range", "", ""};
-    Value value;
-    if (read_value(context, exposure, row, value)) output.exposure_ev = value.number[0];
+    read_exposure(context, exposure, output);
   }
   const uint32_t basename = value_of(map, "basename").node;
   if (basename == kNone || !read_text(context, basename, output.basename)) return;

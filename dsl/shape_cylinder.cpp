@@ -11,7 +11,7 @@ using enum ValueType;
 
 constexpr KeyRow kRows[] = {
     {"radius", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Of the circle that its corners lie on."},
+     "Radius of the circle that its corners lie on."},
     {"height", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "", "Length along y."},
     {"at", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Middle of its bottom."},
     {"sides", kInteger, false, "24", 3, kSidesMax, "out-of-range", "", "Number of walls."},

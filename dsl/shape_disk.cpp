@@ -10,8 +10,8 @@ using enum ValueType;
 
 constexpr KeyRow kRows[] = {
     {"radius", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Of the circle that its corners lie on."},
-    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Its middle."},
+     "Radius of the circle that its corners lie on."},
+    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Middle of the circle."},
     {"normal", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "Towards the lit side, any length."},
     {"sides", kInteger, false, "24", 3, kSidesMax, "out-of-range", "", "Number of corners."},

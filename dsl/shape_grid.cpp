@@ -8,6 +8,7 @@ namespace patchlight {
 namespace {
 
 using enum ValueType;
+using enum RuleKind;
 
 constexpr KeyRow kRows[] = {
     {"size", kVec2, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
@@ -19,15 +20,23 @@ constexpr KeyRow kRows[] = {
     {"origin", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "A corner; then u and v are required."},
     {"u", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Edge from origin to the next corner."},
+     "Edge from origin to the second corner."},
     {"v", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "Edge from origin to the last corner; the lit side is u x v."},
-    {"cells", kIntegers2, true, "", 1, 1e9, "out-of-range", "", "Polygons along the width and the height."},
+    {"cells", kIntegers2, true, "", 1, kAnyInteger, "out-of-range", "",
+     "Polygons along the width and the height."},
+};
+
+constexpr KeyRule kRules[] = {
+    {kOneOf, "size|origin", "", "missing-key", "a grid needs its size: [width, height], or origin, u and v"},
+    {kExcludes, "center|size|normal", "origin|u|v", "ambiguous-shape",
+     "a grid has either center, size, normal or origin, u, v"},
+    {kNeeds, "origin|u|v", "origin|u|v", "missing-key", "a grid by edges needs origin, u and v"},
 };
 
 }  // namespace
 
-const KeyTable kGridKeys = {"grid", kRows};
+const KeyTable kGridKeys = {"grid", kRows, kRules};
 
 void build_grid(const ShapeInput& input) {
   const MapValues map = read_map(input.context, input.node, kGridKeys);

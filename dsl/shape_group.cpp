@@ -7,15 +7,14 @@ namespace patchlight {
 
 void build_group(const ShapeInput& input) {
   const Tree& tree = input.context.tree;
-  if (tree.nodes[input.node].kind != NodeKind::kList) {
-    add_error(input.context.messages, place_of(tree, input.node), "expected-list",
-              fmt::format("expected a list of objects, got {}", describe(tree, input.node)));
-    return;
-  }
+  IdTable ids;
   size_t number = 0;
-  for (uint32_t child = tree.nodes[input.node].first; child != kNone; child = tree.nodes[child].next)
-    read_object(input.context, child, {input.id + ".", fmt::format("{}.object{}", input.id, ++number)},
+  for (uint32_t child = tree.nodes[input.node].first; child != kNone; child = tree.nodes[child].next) {
+    ++number;
+    if (is_id_taken(input.context, child, "", ids)) continue;
+    read_object(input.context, child, {input.id + ".", fmt::format("{}.object{}", input.id, number)},
                 input.own, input.scene);
+  }
 }
 
 }  // namespace patchlight

@@ -2,6 +2,17 @@
 #include "shapes.h"
 
 namespace patchlight {
+namespace {
+
+// Is this a list of corners [x, y, z], where a list of such lists belongs?
+bool is_one_ring(const Tree& tree, uint32_t list) {
+  const uint32_t corner = tree.nodes[list].first;
+  if (corner == kNone || tree.nodes[corner].kind != NodeKind::kList) return false;
+  const uint32_t number = tree.nodes[corner].first;
+  return number != kNone && tree.nodes[number].kind == NodeKind::kScalar;
+}
+
+}  // namespace
 
 void build_polygon(const ShapeInput& input) {
   const Context& context = input.context;
@@ -11,7 +22,13 @@ void build_polygon(const ShapeInput& input) {
   add_part(input, "", corners);
   const uint32_t holes = value_of(input.object, "holes").node;
   if (holes == kNone) return;
-  for (uint32_t hole = context.tree.nodes[holes].first; hole != kNone; hole = context.tree.nodes[hole].next)
+  const Tree& tree = context.tree;
+  if (is_one_ring(tree, holes)) {
+    add_error(context.messages, place_of(tree, holes), "expected-list",
+              "'holes' is a list of holes, each a list of corners; put one more pair of brackets around");
+    return;
+  }
+  for (uint32_t hole = tree.nodes[holes].first; hole != kNone; hole = tree.nodes[hole].next)
     if (!report_null(context, hole, "a list of corners") && read_corners(context, hole, "a hole", corners))
       add_hole(input.scene.outlines, hole, corners);
 }

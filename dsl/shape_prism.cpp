@@ -1,4 +1,5 @@
 // prism: a polygon pushed along its normal: walls ID.0, ID.1 ... and, with caps, ID.bottom and ID.top.
+#include "flat_polygon.h"
 #include "limits.h"
 #include "shapes.h"
 #include "walls.h"
@@ -9,7 +10,7 @@ namespace {
 using enum ValueType;
 
 constexpr KeyRow kRows[] = {
-    {"base", kList, true, "", 0, 0, "", "",
+    {"base", kCorners, true, "", 0, 0, "", "",
      "List of corners [x, y, z], counter-clockwise seen from where the prism grows to."},
     {"height", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
      "How far it grows along the base's normal."},
@@ -22,28 +23,22 @@ constexpr KeyRow kRows[] = {
 const KeyTable kPrismKeys = {"prism", kRows};
 
 void build_prism(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kPrismKeys);
+  const Context& context = input.context;
+  const MapValues map = read_map(context, input.node, kPrismKeys);
+  if (!require_material(input) || !map.good) return;
+  const uint32_t node = value_of(map, "base").node;
   std::vector<DVec3> base;
-  if (!require_material(input) || !map.good ||
-      !read_corners(input.context, value_of(map, "base").node, "a base", base))
-    return;
-  DVec3 normal(0), low(base[0]), high(base[0]);
-  for (const DVec3& corner : base) {
-    low = glm::min(low, corner);
-    high = glm::max(high, corner);
-  }
-  const double size = glm::length(high - low);
-  for (size_t k = 0; k < base.size() && size > 0; ++k)
-    normal += glm::cross((base[k] - base[0]) / size, (base[(k + 1) % base.size()] - base[0]) / size);
-  if (!(glm::length(normal) > 1e-10)) {
-    add_error(input.context.messages, place_of(input.context.tree, value_of(map, "base").node), "zero-area",
-              "the base has no area, so the prism has no direction");
-    return;
-  }
-  const DVec3 shift = glm::normalize(normal) * value_of(map, "height").number[0];
-  std::vector<DVec3> top = base;
+  if (!read_corners(context, node, "a base", base)) return;
+  // The base is checked by itself, where its corners have places of their own; what is left has no repeats.
+  OutlineTable outline;
+  add_polygon(outline, input.object_row, input.id + ": base", input.own.material, node, base);
+  FlatPolygon flat;
+  if (!flatten_polygon(context.messages, context.tree, outline, 0, flat)) return;
+  const DVec3 shift = flat.normal * value_of(map, "height").number[0];
+  std::vector<DVec3> top = flat.points;
   for (DVec3& corner : top) corner += shift;
-  add_walls(input, base, top, value_of(map, "caps").integer[0] != 0, value_of(map, "inward").integer[0] != 0);
+  add_walls(input, flat.points, top, value_of(map, "caps").integer[0] != 0,
+            value_of(map, "inward").integer[0] != 0);
 }
 
 }  // namespace patchlight

@@ -6,6 +6,7 @@ namespace patchlight {
 namespace {
 
 using enum ValueType;
+using enum RuleKind;
 
 constexpr KeyRow kRows[] = {
     {"size", kVec2, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
@@ -17,33 +18,29 @@ constexpr KeyRow kRows[] = {
     {"origin", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "A corner; then u and v are required."},
     {"u", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Edge from origin to the next corner."},
+     "Edge from origin to the second corner."},
     {"v", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "Edge from origin to the last corner; the lit side is u x v."},
 };
 
+constexpr KeyRule kRules[] = {
+    {kOneOf, "size|origin", "", "missing-key", "a quad needs its size: [width, height], or origin, u and v"},
+    {kExcludes, "center|size|normal", "origin|u|v", "ambiguous-shape",
+     "a quad has either center, size, normal or origin, u, v"},
+    {kNeeds, "origin|u|v", "origin|u|v", "missing-key", "a quad by edges needs origin, u and v"},
+};
+
 }  // namespace
 
-const KeyTable kQuadKeys = {"quad", kRows};
+const KeyTable kQuadKeys = {"quad", kRows, kRules};
 
 bool read_quad(const ShapeInput& input, const MapValues& map, std::array<DVec3, 4>& corners) {
-  const auto report = [&](std::string_view slug, std::string message) {
-    add_error(input.context.messages, place_of(input.context.tree, input.node), slug, std::move(message));
-    return false;
-  };
-  const bool by_edges = has(map, "origin") || has(map, "u") || has(map, "v");
-  const bool by_centre = has(map, "size") || has(map, "center") || has(map, "normal");
-  if (by_edges && by_centre)
-    return report("ambiguous-shape", "a quad has either center, size, normal or origin, u, v");
-  if (by_edges) {
-    for (const std::string_view key : {"origin", "u", "v"})
-      if (!has(map, key)) return report("missing-key", "a quad by edges needs origin, u and v");
+  if (has(map, "origin")) {
     const DVec3 origin = vec3_of(value_of(map, "origin")), u = vec3_of(value_of(map, "u")),
                 v = vec3_of(value_of(map, "v"));
     corners = {origin, origin + u, origin + u + v, origin + v};
     return true;
   }
-  if (!has(map, "size")) return report("missing-key", "a quad needs its size: [width, height]");
   DVec3 normal, width, height;
   if (!read_direction(input.context, value_of(map, "normal"), normal)) return false;
   make_axes(normal, width, height);

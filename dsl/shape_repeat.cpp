@@ -10,13 +10,21 @@ namespace patchlight {
 namespace {
 
 using enum ValueType;
+using enum RuleKind;
 
 constexpr KeyRow kRows[] = {
-    {"count", kAny, true, "", 1, 1e15, "out-of-range", "", "How many: n, or [nx, ny, nz]."},
+    {"count", kIntegerOrVec3, true, "", 1, kAnyInteger, "out-of-range", "",
+     "How many copies: n, or [nx, ny, nz]."},
     {"step", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
      "From one copy to the next: along each axis where count is a list, else as a whole."},
     {"transform", kList, false, "", 0, 0, "", "transform", "Instead of step: copy i has it applied i times."},
     {"of", kMap, true, "", 0, 0, "", "object", "The object; $i ($j, $k) in it is the copy's index, from 0."},
+};
+
+constexpr KeyRule kRules[] = {
+    {kOneOf, "step|transform", "", "missing-key",
+     "a repeat needs 'step', or 'transform': how one copy follows from the one before"},
+    {kExcludes, "step", "transform", "ambiguous-shape", "a repeat has either 'step' or 'transform'"},
 };
 
 struct Counts {
@@ -91,7 +99,7 @@ bool count_copies(const ShapeInput& input, uint32_t node, const Counts& counts, 
 
 }  // namespace
 
-const KeyTable kRepeatKeys = {"repeat", kRows};
+const KeyTable kRepeatKeys = {"repeat", kRows, kRules};
 
 void build_repeat(const ShapeInput& input) {
   const MapValues map = read_map(input.context, input.node, kRepeatKeys);
@@ -102,8 +110,6 @@ void build_repeat(const ShapeInput& input) {
   Counts counts;
   const uint32_t list = value_of(map, "transform").node;
   if (!read_counts(input, value_of(map, "count").node, counts)) return;
-  if (has(map, "step") && list != kNone)
-    return report("ambiguous-shape", "a repeat has either 'step' or 'transform'");
   if (counts.is_list && list != kNone)
     return report("ambiguous-shape", "with 'transform', 'count' is one number");
   Context inner = input.context;

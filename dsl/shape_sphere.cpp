@@ -15,8 +15,8 @@ using enum ValueType;
 
 constexpr KeyRow kRows[] = {
     {"radius", kNumber, true, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Of the sphere that its corners lie on."},
-    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Its middle."},
+     "Radius of the sphere that its corners lie on."},
+    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "Middle of the sphere."},
     {"sides", kInteger, false, "24", 3, 1000, "out-of-range", "",
      "Polygons around; half as many rows from pole to pole."},
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},

@@ -10,20 +10,22 @@
 namespace patchlight {
 
 std::span<const ShapeRow> shape_rows() {
+  using enum ValueType;
   static constexpr ShapeRow kRows[] = {
-      {"polygon", nullptr, build_polygon, "List of corners [x, y, z], counter-clockwise from the lit side."},
-      {"quad", &kQuadKeys, build_quad,
-       "A rectangle by centre, size and normal, or a parallelogram by origin, u, v."},
-      {"box", &kBoxKeys, build_box, "A box whose six sides face outward."},
-      {"room", &kRoomKeys, build_room, "A box whose sides face inward; sides can be left out."},
-      {"grid", &kGridKeys, build_grid, "A quad cut into separate polygons, ID.0, ID.1 ... row by row."},
-      {"disk", &kDiskKeys, build_disk, "A flat polygon of equal sides, its corners on a circle."},
-      {"cylinder", &kCylinderKeys, build_cylinder, "An upright cylinder of flat sides."},
-      {"prism", &kPrismKeys, build_prism, "A polygon pushed along its normal."},
-      {"sphere", &kSphereKeys, build_sphere, "A sphere of flat sides, its corners on the sphere."},
-      {"mesh", nullptr, build_mesh, "Path of a Wavefront OBJ file: a polygon for each of its faces."},
-      {"group", nullptr, build_group, "A list of objects that share a transform and settings."},
-      {"repeat", &kRepeatKeys, build_repeat,
+      {"polygon", kCorners, nullptr, build_polygon,
+       "List of corners [x, y, z], counter-clockwise from the lit side."},
+      {"quad", kMap, &kQuadKeys, build_quad,
+       "A rectangle by center, size and normal, or a parallelogram by origin, u, v."},
+      {"box", kMap, &kBoxKeys, build_box, "A box whose six sides face outward."},
+      {"room", kMap, &kRoomKeys, build_room, "A box whose sides face inward; sides can be left out."},
+      {"grid", kMap, &kGridKeys, build_grid, "A quad cut into separate polygons, ID.0, ID.1 ... row by row."},
+      {"disk", kMap, &kDiskKeys, build_disk, "A flat polygon of equal sides, its corners on a circle."},
+      {"cylinder", kMap, &kCylinderKeys, build_cylinder, "An upright cylinder of flat sides."},
+      {"prism", kMap, &kPrismKeys, build_prism, "A polygon pushed along its normal."},
+      {"sphere", kMap, &kSphereKeys, build_sphere, "A sphere of flat sides, its corners on the sphere."},
+      {"mesh", kText, nullptr, build_mesh, "Path of a Wavefront OBJ file: a polygon for each of its faces."},
+      {"group", kList, nullptr, build_group, "A list of objects that share a transform and settings."},
+      {"repeat", kMap, &kRepeatKeys, build_repeat,
        "Copies of an object, in rows or by a transform applied again and again."},
   };
   return kRows;

@@ -26,6 +26,7 @@ struct ShapeInput {
 
 struct ShapeRow {
   std::string_view name;
+  ValueType type;                    // of what stands behind its name
   const KeyTable* keys;              // of its map; nullptr: its value is no map
   void (*build)(const ShapeInput&);  // appends polygons, or reports errors
   std::string_view description;
@@ -75,5 +76,6 @@ extern const KeyTable kRepeatKeys;
 extern const KeyTable kQuadKeys;
 extern const KeyTable kBoxKeys;
 extern const KeyTable kRoomKeys;
+extern const KeyTable kWallKeys;  // of `walls` in a room: one a side
 
 }  // namespace patchlight

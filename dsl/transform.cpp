@@ -90,14 +90,7 @@ bool read_transform(const Context& context, uint32_t list, Transform& transform)
   const Tree& tree = context.tree;
   for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next) {
     const MapValues map = read_map(context, child, kTransformKeys);
-    if (!map.good) return false;
-    if (tree.nodes[child].count != 2) {
-      add_error(context.messages, place_of(tree, child),
-                tree.nodes[child].count == 0 ? "missing-key" : "ambiguous-shape",
-                "a step of a transform is one of translate, rotate, scale");
-      return false;
-    }
-    if (!read_steps(context, map, transform)) return false;
+    if (!map.good || !read_steps(context, map, transform)) return false;
   }
   return true;
 }
@@ -107,11 +100,6 @@ bool read_object_transform(const Context& context, const MapValues& object, Tran
   const bool by_keys = has(object, "translate") || has(object, "rotate") || has(object, "scale");
   const uint32_t list = value_of(object, "transform").node;
   found = by_keys || list != kNone;
-  if (by_keys && list != kNone) {
-    add_error(context.messages, place_of(context.tree, list), "ambiguous-shape",
-              "an object has either 'transform' or the short keys translate, rotate, scale");
-    return false;
-  }
   return list != kNone ? read_transform(context, list, transform) : read_steps(context, object, transform);
 }
 

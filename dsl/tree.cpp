@@ -44,8 +44,9 @@ class TreeBuilder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Place place = place_at(mark);
     // The parser puts an empty value where the next token stands, often lines below: its key says more.
-    if (!open_.empty() && last_child() != kNone && tree_.nodes[open_.back().node].kind == NodeKind::kMap &&
-        place.line != tree_.nodes[last_child()].line) {
+    const bool is_value = !open_.empty() && tree_.nodes[open_.back().node].kind == NodeKind::kMap &&
+                          tree_.nodes[open_.back().node].count % 2 == 1;
+    if (is_value && place.line != tree_.nodes[last_child()].line) {
       place.line = tree_.nodes[last_child()].line;
       place.column = tree_.nodes[last_child()].column;
     }

@@ -4,7 +4,9 @@
 #include "expression.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 
@@ -13,6 +15,42 @@ namespace {
 
 void report(const Context& context, uint32_t node, std::string_view slug, std::string message) {
   add_error(context.messages, place_of(context.tree, node), slug, std::move(message));
+}
+
+// Takes the first of the words a|b|c off.
+std::string_view take_word(std::string_view& words) {
+  const std::string_view word = words.substr(0, words.find('|'));
+  words.remove_prefix(std::min(word.size() + 1, words.size()));
+  return word;
+}
+
+// Is any of the words a key of the map? `first` is the value of the first that is.
+bool has_any(const MapValues& map, std::string_view words, uint32_t& first) {
+  while (!words.empty())
+    if ((first = value_of(map, take_word(words)).node) != kNone) return true;
+  return false;
+}
+
+bool has_all(const MapValues& map, std::string_view words) {
+  while (!words.empty())
+    if (!has(map, take_word(words))) return false;
+  return true;
+}
+
+// Reports the first rule of the table that the map breaks.
+bool check_rules(const Context& context, const MapValues& map) {
+  for (const KeyRule& rule : map.table->rules) {
+    uint32_t first = kNone, other = kNone;
+    const bool any = has_any(map, rule.keys, first);
+    uint32_t place = kNone;
+    if (rule.kind == RuleKind::kExcludes && any && has_any(map, rule.others, other)) place = other;
+    if (rule.kind == RuleKind::kNeeds && any && !has_all(map, rule.others)) place = first;
+    if (rule.kind == RuleKind::kOneOf && !any) place = map.node;
+    if (place == kNone) continue;
+    report(context, place, rule.slug, std::string(rule.text));
+    return false;
+  }
+  return true;
 }
 
 const KeyRow* find_row(const KeyTable& table, std::string_view key) {
@@ -44,16 +82,16 @@ void report_unknown_key(const Context& context, uint32_t key, const KeyTable& ta
 
 // "within 0..1", "above 0", "0 or more": what a message says of a row's range.
 std::string range_text(const KeyRow& row) {
-  const bool open_above = row.high == kAnyNumber;
+  const bool open_above = row.high == kAnyNumber || row.high == kAnyInteger;
   if (row.low == kAboveZero)
-    return open_above ? "above 0" : fmt::format("above 0 and at most {:g}", row.high);
-  if (open_above) return fmt::format("{:g} or more", row.low);
-  return fmt::format("within {:g}..{:g}", row.low, row.high);
+    return open_above ? "above 0" : fmt::format("above 0 and at most {}", number_text(row.high));
+  if (open_above) return fmt::format("{} or more", number_text(row.low));
+  return fmt::format("within {}..{}", number_text(row.low), number_text(row.high));
 }
 
 bool check_range(const Context& context, uint32_t node, const KeyRow& row, double number) {
   if (number >= row.low && number <= row.high) return true;
-  std::string message = fmt::format("'{}' must be {}, got {:g}", row.key, range_text(row), number);
+  std::string message = fmt::format("'{}' must be {}, got {}", row.key, range_text(row), number_text(number));
   if (row.slug == "reflectance-range" && number >= 2 && number <= 255)
     message += fmt::format("; of a scale 0..255 this is {:.2f}", number / 255);
   report(context, node, row.slug, std::move(message));
@@ -86,20 +124,29 @@ bool read_boolean(const Context& context, uint32_t node, int64_t& value) {
 bool read_choice(const Context& context, uint32_t node, const KeyRow& row, int64_t& value) {
   std::string text;
   if (!read_text(context, node, text)) return false;
-  std::vector<std::string> known;
-  for (std::string_view rest = row.choices; !rest.empty();) {
-    const size_t bar = std::min(rest.find('|'), rest.size());
-    known.emplace_back(rest.substr(0, bar));
-    rest.remove_prefix(std::min(bar + 1, rest.size()));
-  }
+  const std::vector<std::string> known = split_words(row.choices);
   for (size_t k = 0; k < known.size(); ++k)
     if (known[k] == text) {
       value = static_cast<int64_t>(k);
       return true;
     }
+  const std::string near = did_you_mean(text, known);
   report(context, node, row.slug,
-         fmt::format("'{}' must be one of {}, got '{}'", row.key, row.choices, escape_text(text)));
+         fmt::format("'{}' must be one of {}; got '{}'{}", row.key, fmt::join(known, ", "), escape_text(text),
+                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   return false;
+}
+
+// The whole file is read by its version, so it cannot depend on what stands there.
+bool read_written_integer(const Context& context, uint32_t node, const KeyRow& row, Value& value) {
+  if (is_expression(text_of(context.tree, node))) {
+    report(
+        context, node, "expected-integer",
+        fmt::format("'{}' is a number that is written out; got {}", row.key, describe(context.tree, node)));
+    return false;
+  }
+  return read_integer(context, node, value.integer[0]) &&
+         check_range(context, node, row, static_cast<double>(value.integer[0]));
 }
 
 bool read_integers2(const Context& context, uint32_t node, const KeyRow& row, Value& value) {
@@ -118,11 +165,11 @@ bool read_rgb(const Context& context, uint32_t node, const KeyRow& row, Value& v
   if (source.kind == NodeKind::kList)
     return read_three(context, node, "expected-rgb", value.number) &&
            check_ranges(context, node, row, value.number);
-  // A word is more likely a colour's name than a mistyped number.
+  // A word, or #f0f0f0, is more likely a colour's name than a mistyped number.
   const std::string_view text = text_of(context.tree, node);
   const bool word = source.kind == NodeKind::kMap ||
-                    (source.kind == NodeKind::kScalar && !source.quoted && !is_expression(text) &&
-                     text.find_first_of("0123456789.") == std::string_view::npos);
+                    (source.kind == NodeKind::kScalar && !is_expression(text) &&
+                     (text.starts_with('#') || text.find_first_of("0123456789.") == std::string_view::npos));
   if (word) return read_three(context, node, "expected-rgb", value.number);
   if (!read_number(context, node, value.number[0])) return false;
   value.number[1] = value.number[2] = value.number[0];
@@ -181,13 +228,16 @@ bool read_text(const Context& context, uint32_t node, std::string& text) {
     return false;
   }
   text = text_of(context.tree, node);
-  for (const char c : text)
-    if (static_cast<uint8_t>(c) < 0x20 || c == 0x7f) {
-      report(context, node, "control-character",
-             fmt::format("control character {:#04x} in '{}'; take it out", static_cast<uint8_t>(c),
-                         escape_text(text)));
-      return false;
-    }
+  for (size_t k = 0; k < text.size(); ++k) {
+    const auto byte = [&](size_t i) { return i < text.size() ? static_cast<uint8_t>(text[i]) : uint8_t{0}; };
+    const bool second_set = byte(k) == 0xc2 && byte(k + 1) >= 0x80 && byte(k + 1) < 0xa0;  // U+0080 to U+009F
+    if (byte(k) >= 0x20 && byte(k) != 0x7f && !second_set) continue;
+    report(context, node, "control-character",
+           byte(k) == '\n' ? fmt::format("a text of one line is expected, got '{}'", escape_text(text))
+                           : fmt::format("control character {:#04x} in '{}'; take it out",
+                                         byte(second_set ? k + 1 : k), escape_text(text)));
+    return false;
+  }
   return true;
 }
 
@@ -218,11 +268,21 @@ bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value&
              check_ranges(context, node, row, value.number);
     case ValueType::kRgb:
       return read_rgb(context, node, row, value);
+    case ValueType::kVersion:
+      return read_written_integer(context, node, row, value);
     case ValueType::kList:
+    case ValueType::kIncludes:
+    case ValueType::kChoices:
+    case ValueType::kIntegers:
+    case ValueType::kRings:
       return read_kind(context, node, row, NodeKind::kList);
     case ValueType::kMap:
       return read_kind(context, node, row, NodeKind::kMap);
-    case ValueType::kAny:
+    case ValueType::kCorners:
+    case ValueType::kScale:
+    case ValueType::kAxis:
+    case ValueType::kNumberOrWord:
+    case ValueType::kIntegerOrVec3:
       return !report_null(context, node, fmt::format("a value for '{}'", row.key));
   }
   return false;
@@ -262,7 +322,21 @@ MapValues read_map(const Context& context, uint32_t node, const KeyTable& table)
     }
     if (!table.rows[k].fallback.empty()) set_fallback(table.rows[k], map.values[k]);
   }
+  // A key that is wrong may be the one that a rule asks for.
+  if (map.good) map.good = check_rules(context, map);
   return map;
+}
+
+const KeyRow& row_of(const KeyTable& table, std::string_view key) {
+  const KeyRow* row = find_row(table, key);
+  assert(row != nullptr);
+  return *row;
+}
+
+std::vector<std::string> split_words(std::string_view words) {
+  std::vector<std::string> list;
+  while (!words.empty()) list.emplace_back(take_word(words));
+  return list;
 }
 
 const Value& value_of(const MapValues& values, std::string_view key) {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace patchlight {
 
@@ -18,6 +19,9 @@ struct Value {
   int64_t integer[2] = {0, 0};   // kInteger, kBoolean, kIntegers2; kChoice: which choice, from 0
 };
 
+// The words of a|b|c.
+std::vector<std::string> split_words(std::string_view words);
+
 // The values of one map, a row for each row of its table. `good` is false when something was wrong with it:
 // an error was reported, and the numbers are not to be used.
 struct MapValues {
@@ -27,9 +31,12 @@ struct MapValues {
   std::array<Value, kKeysMax> values;
 };
 
-// Reads a map. Errors: unknown-key (with the nearest known one), missing-key, null-value, expected-..., and
-// the row's own slug for values beyond its range.
+// Reads a map. Errors: unknown-key (with the nearest known one), missing-key, null-value, expected-..., the
+// row's own slug for values beyond its range, and those of the table's rules.
 MapValues read_map(const Context& context, uint32_t node, const KeyTable& table);
+
+// The row of a key that the table has.
+const KeyRow& row_of(const KeyTable& table, std::string_view key);
 
 // The value of a key that the table has.
 const Value& value_of(const MapValues& values, std::string_view key);
@@ -39,7 +46,8 @@ inline DVec3 vec3_of(const Value& value) { return DVec3(value.number[0], value.n
 // Checks one value against a row; false after an error. For values that stand in lists of their own.
 bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value& value);
 
-// A text that becomes part of names or is shown: false after expected-text, null-value or control-character.
+// A text of one line that becomes part of names or is shown: false after expected-text, null-value or
+// control-character.
 bool read_text(const Context& context, uint32_t node, std::string& text);
 
 // True for what matches [A-Za-z_][A-Za-z0-9_.-]*.

@@ -39,28 +39,53 @@ void read_let(const Context& context, uint32_t node, VariableTable& variables) {
   }
 }
 
+namespace {
+
+enum class Reading : uint8_t { kNumber, kNotFinite, kNoNumber };
+
+// A number as the command line gives it: what a scene takes as one, or infinite and not-a-number by any name.
+Reading read_definition(std::string_view text, double& value) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  const auto digit = [&](size_t k) { return k < digits.size() && digits[k] >= '0' && digits[k] <= '9'; };
+  if (digits.starts_with('.') && !digit(1)) digits.remove_prefix(1);  // .inf, .nan
+  if (digits.starts_with('0') && digit(1)) return Reading::kNoNumber;
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (rest != digits.data() + digits.size() || error == std::errc::invalid_argument || digits.empty() ||
+      digits.starts_with('-'))
+    return Reading::kNoNumber;
+  if (error == std::errc::result_out_of_range) {
+    if (!is_tiny(digits)) return Reading::kNotFinite;
+    value = 0;
+  }
+  if (text.starts_with('-')) value = -value;
+  return std::isfinite(value) ? Reading::kNumber : Reading::kNotFinite;
+}
+
+}  // namespace
+
 void define_variables(const Context& context, const std::vector<std::string>& definitions) {
   VariableTable& variables = *context.variables;
   for (const std::string& definition : definitions) {
     const size_t equals = std::min(definition.find('='), definition.size());
     const std::string name = definition.substr(0, equals);
     const std::string shown = escape_text(definition);
+    const bool complete = equals > 0 && equals < definition.size();
     double value = 0;
-    const char* begin = definition.data() + std::min(equals + 1, definition.size());
-    const char* end = definition.data() + definition.size();
-    const auto [rest, error] = std::from_chars(begin, end, value);
+    const Reading reading = complete ? read_definition(std::string_view(definition).substr(equals + 1), value)
+                                     : Reading::kNoNumber;
     const auto row = variables.row_of.find(name);
-    if (equals == definition.size() || name.empty() || begin == end ||
-        (rest != end && error == std::errc{}) || error == std::errc::invalid_argument) {
+    if (reading == Reading::kNoNumber) {
       add_command_line_error(context.messages, "usage", fmt::format("-D {}: expected NAME=NUMBER", shown));
-    } else if (!std::isfinite(value) || error != std::errc{}) {
+    } else if (reading == Reading::kNotFinite) {
       add_command_line_error(context.messages, "non-finite",
                              fmt::format("-D {}: expected a finite number", shown));
     } else if (row == variables.row_of.end()) {
       const std::string near = did_you_mean(name, variables.name);
-      add_command_line_error(context.messages, "undefined-variable",
-                             fmt::format("-D {}: the scene has no variable '{}'{}", shown, escape_text(name),
-                                         near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+      add_command_line_error(
+          context.messages, "undefined-variable",
+          fmt::format("-D {}: the scene has no variable '{}'{}", shown, escape_text(name),
+                      near.empty() ? "" : fmt::format("; did you mean '{}'?", escape_text(near))));
     } else {
       variables.value[row->second] = value;
       variables.state[row->second] = VariableTable::State::kKnown;
@@ -161,7 +186,7 @@ std::string undefined_variable_text(const Context& context, std::string_view nam
       fmt::format("'{0}' is not defined; define it under 'let:' or with -D {0}=...", escape_text(name));
   if (!context.variables || !wants_errors(context.messages)) return message;
   if (const std::string near = did_you_mean(name, context.variables->name); !near.empty())
-    message = fmt::format("'{}' is not defined; did you mean '{}'?", escape_text(name), near);
+    message = fmt::format("'{}' is not defined; did you mean '{}'?", escape_text(name), escape_text(near));
   return message;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <vector>
 
 namespace patchlight {
 namespace {
@@ -37,18 +36,27 @@ constexpr std::array kRewordings = {
     Rewording{"the referenced anchor is not defined",
               "this alias (*name) names nothing that was anchored (&name) before"},
     Rewording{"bad file", "nested deeper than the parser allows"},
+    Rewording{"alias not found after", "a name belongs behind *; a text that begins with it needs quotes"},
+    Rewording{"anchor not found after", "a name belongs behind &; a text that begins with it needs quotes"},
+    Rewording{"scanning hex number", "\\x wants two hexadecimal digits, \\u four, \\U eight"},
+    Rewording{"invalid unicode", "this number stands for no character"},
+    Rewording{"repeated YAML directive", "%YAML stands here for the second time; take one out"},
 };
+
+std::string_view text_of_line(const SourceFile& file, uint32_t line) {
+  size_t first = 0;
+  for (uint32_t k = 1; k < line; ++k) {
+    first = file.text.find('\n', first);
+    if (first++ == std::string::npos) return {};
+  }
+  const std::string_view text = std::string_view(file.text).substr(first);
+  return text.substr(0, text.find('\n'));
+}
 
 // "units:cm" reads as a text; the parser complains only at the next ':'. This finds that earlier line.
 uint32_t line_without_space(const SourceFile& file, uint32_t line) {
-  size_t end = 0;
-  std::vector<size_t> firsts{0};
-  while (firsts.size() < line && (end = file.text.find('\n', end)) != std::string::npos)
-    firsts.push_back(++end);
-  for (uint32_t k = std::min<uint32_t>(line, static_cast<uint32_t>(firsts.size())); k >= 1 && k + 3 > line;
-       --k) {
-    std::string_view text = std::string_view(file.text).substr(firsts[k - 1]);
-    text = text.substr(0, text.find('\n'));
+  for (uint32_t k = line; k >= 1 && k + 3 > line; --k) {
+    const std::string_view text = text_of_line(file, k);
     const size_t key = text.find_first_not_of(" -");
     const size_t colon = text.find(':');
     if (key == std::string_view::npos || colon == std::string_view::npos || colon + 1 >= text.size())
@@ -70,11 +78,21 @@ void report_yaml_error(Messages& messages, uint32_t file, const YAML::Exception&
   std::string_view slug = "yaml-syntax";
   if (error.msg.find("anchor is not defined") != std::string::npos) slug = "yaml-undefined-alias";
   if (error.msg.find("bad file") != std::string::npos) slug = "too-deep";
+  const std::string_view line = text_of_line(messages.files[file], place.line);
+  const size_t indent = std::min(line.find_first_not_of(' '), line.size());
+  if (error.msg.find("end of map not found") != std::string::npos && place.column > indent + 1)
+    message = "this does not belong behind what stands before it; is a ',', a ':' or a line break missing?";
   // The parser's mark is behind the character that it could not read.
   if (error.msg.find("unknown escape") != std::string::npos && place.column > 1) --place.column;
   if (error.msg.find("illegal map value") != std::string::npos) {
-    if (const uint32_t line = line_without_space(messages.files[file], place.line)) {
-      place.line = line;
+    if (line.substr(indent).starts_with('-') && line.substr(indent, 2) != "- ") {
+      const bool tab = line.substr(indent, 2) == "-\t";
+      place.column = static_cast<uint32_t>(indent + 1);
+      message = tab ? "a tab may not stand between '-' and a key; use a space"
+                    : "a space is missing after this '-'";
+      if (tab) slug = "yaml-tab-indent";
+    } else if (const uint32_t earlier = line_without_space(messages.files[file], place.line)) {
+      place.line = earlier;
       place.column = 1;
     }
   }

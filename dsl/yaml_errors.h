@@ -10,7 +10,7 @@ class Exception;
 namespace patchlight {
 
 // Adds an error for what the parser threw while it read messages.files[file]: yaml-syntax,
-// yaml-undefined-alias or too-deep.
+// yaml-tab-indent, yaml-undefined-alias or too-deep.
 void report_yaml_error(Messages& messages, uint32_t file, const YAML::Exception& error);
 
 }  // namespace patchlight

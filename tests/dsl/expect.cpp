@@ -24,6 +24,8 @@ TEST_CASE("an expectation means the polygon of its id, or all parts of the objec
   CHECK(list[1].polygons.size() == 6);
   CHECK(list[1].radiosity == Rgb(1, 1, 1));
   CHECK(list[1].pass == 16);
+  CHECK(list[1].after_last);
+  CHECK(!list[0].after_last);
 }
 
 }  // namespace

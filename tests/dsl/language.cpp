@@ -1,6 +1,8 @@
 // The tables of the language are complete enough to make a schema and a reference from.
 #include "dsl/language.h"
 
+#include "dsl/values.h"
+
 #include <doctest/doctest.h>
 
 #include <set>
@@ -24,15 +26,29 @@ TEST_CASE("every key is described, and no table has one twice") {
   }
 }
 
+TEST_CASE("rules speak of keys that their table has") {
+  for (const KeyTable* table : language_tables())
+    for (const KeyRule& rule : table->rules) {
+      CAPTURE(std::string(rule.text));
+      for (const std::string_view words : {rule.keys, rule.others})
+        for (const std::string& word : split_words(words)) {
+          CAPTURE(word);
+          CHECK(row_of(*table, word).key == word);
+        }
+      CHECK((rule.kind == RuleKind::kOneOf) == rule.others.empty());
+    }
+}
+
 TEST_CASE("tables that maps and lists name exist") {
   std::set<std::string_view> names;
   for (const KeyTable* table : language_tables()) CHECK(names.insert(table->name).second);
   for (const KeyTable* table : language_tables())
     for (const KeyRow& row : table->rows) {
-      if (row.type == ValueType::kChoice || row.choices.empty()) continue;
+      const bool names_table =
+          row.type == ValueType::kMap || row.type == ValueType::kList || row.type == ValueType::kIncludes;
+      if (!names_table || row.choices.empty() || row.choices == "*" || row.choices == "*text") continue;
       CAPTURE(std::string(row.key));
-      const std::string_view name = row.choices.substr(row.choices.starts_with('*') ? 1 : 0);
-      CHECK((name.empty() || names.contains(name)));
+      CHECK(names.contains(row.choices.substr(row.choices.starts_with('*') ? 1 : 0)));
     }
 }
 

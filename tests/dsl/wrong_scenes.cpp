@@ -236,7 +236,7 @@ const std::vector<Wrong> kWrong = {
     {"null normal", kHead + kLight + "  - {quad: {size: [1,1], normal: [0,0,0]}, material: white}\n",
      "zero-axis", 7, 34, 3},
     {"quad both ways", kHead + kLight + "  - {quad: {size: [1,1], origin: [0,0,0]}, material: white}\n",
-     "ambiguous-shape", 7, 12, 3},
+     "ambiguous-shape", 7, 34, 3},
     {"expression ends too early", kHead + kLight + "  - {quad: {size: [1, '=(1+2']}, material: white}\n",
      "expression-syntax", 7, 29, 3},
     {"unknown function", kHead + kLight + "  - {quad: {size: [1, '=w/2']}, material: white}\n",
@@ -262,14 +262,14 @@ const std::vector<Wrong> kWrong = {
     {"two moves in a step",
      kHead + kLight +
          "  - {quad: {size: [1,1]}, material: white, transform: [{scale: 2, translate: [1,0,0]}]}\n",
-     "ambiguous-shape", 7, 56, 3},
+     "ambiguous-shape", 7, 64, 3},
     {"axis without length",
      kHead + kLight + "  - {quad: {size: [1,1]}, material: white, rotate: {axis: [0,0,0], angle: 1}}\n",
      "zero-axis", 7, 59, 3},
     {"repeat both ways",
      kHead + kLight +
          "  - repeat: {count: 2, step: [1,0,0], transform: [], of: {quad: {size: [1,1]}, material: white}}\n",
-     "ambiguous-shape", 7, 13, 3},
+     "ambiguous-shape", 7, 50, 3},
     {"repeat of a repeat is counted before it is made",
      kHead + kLight +
          "  - repeat: {count: 1000000, step: [1,0,0], of: {repeat: {count: 2, step: [0,1,0], of: {quad: "
