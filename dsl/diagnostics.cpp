@@ -17,6 +17,7 @@ struct SlugExit {
   int code;
 };
 constexpr std::array kSlugExits = {
+    SlugExit{"expectation-missed", 1},
     SlugExit{"usage", 2},
     SlugExit{"cannot-open", 4},
     SlugExit{"cannot-write", 4},

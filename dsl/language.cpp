@@ -21,7 +21,7 @@ constexpr KeyRow kSceneRows[] = {
     {"include", kIncludes, false, "", 0, 0, "", "include",
      "Files whose variables, materials and objects are added."},
     {"materials", kMap, false, "", 0, 0, "", "*material", "Materials by name."},
-    {"objects", kList, false, "", 0, 0, "", "object",
+    {"objects", kList, false, "", 1, kAnyInteger, "", "object",
      "The things in the scene; one at least, here or in an included file."},
     {"camera", kMap, false, "", 0, 0, "", "camera",
      "The camera, where one is enough. Absent: one that fits the scene."},

@@ -72,6 +72,7 @@ struct KeyTable {
   std::span<const KeyRule> rules = {};
 };
 
+constexpr int64_t kLanguageVersion = 1;
 constexpr size_t kKeysMax = 40;  // rows of the largest table
 
 extern const KeyTable kSceneKeys;

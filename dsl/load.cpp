@@ -2,6 +2,7 @@
 #include "load.h"
 
 #include "camera_fit.h"
+#include "effective.h"
 #include "expect.h"
 #include "faces.h"
 #include "include.h"
@@ -33,10 +34,10 @@ void check_version(const Context& context, const MapValues& map) {
   if (version.node == kNone)
     add_error(context.messages, {place_of(context.tree, map.node).file, 1, 1}, "missing-version",
               "the language's version is missing: add 'patchlight: 1' as the first line");
-  else if (version.integer[0] > 1)
+  else if (version.integer[0] > kLanguageVersion)
     add_error(context.messages, place_of(context.tree, version.node), "version-too-new",
-              fmt::format("version {} of the language is newer than this program, which knows version 1",
-                          version.integer[0]));
+              fmt::format("version {} of the language is newer than this program, which knows version {}",
+                          version.integer[0], kLanguageVersion));
 }
 
 // The node of a key, where it is there and of the right kind.
@@ -155,6 +156,7 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   warn_of_materials(context, objects.materials, root);
   convert_lengths(scene);
   if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.faces));
+  scene.settings = list_settings(context, map, scene);
   hand_over_warnings(messages, warnings);
   return scene;
 }

@@ -49,6 +49,12 @@ struct Expectation {
   double tolerance = 0.02;  // share of the largest channel
 };
 
+// The settings that hold, in reading order: what they are called, their values as text, where they come from.
+struct SettingTable {
+  std::vector<std::string> path, value, origin;
+  size_t size() const { return path.size(); }
+};
+
 // A length of a setting as a float. 0 means automatic, so what is above 0 stays above 0, and finite.
 inline float to_patch_size(double length) {
   using Limits = std::numeric_limits<float>;
@@ -64,6 +70,7 @@ struct Scene {
   SolverSettings solver;
   OutputSettings output;
   std::vector<Expectation> expectations;
+  SettingTable settings;  // for people, as the file and -D and --set leave them
   std::string units = "m";
   // A point of the file is origin + p * units_per_length, p in engine lengths. Both in the file's units.
   DVec3 origin{0};

@@ -327,6 +327,14 @@ MapValues read_map(const Context& context, uint32_t node, const KeyTable& table)
   return map;
 }
 
+MapValues default_values(const KeyTable& table) {
+  MapValues map;
+  map.table = &table;
+  for (size_t k = 0; k < table.rows.size(); ++k)
+    if (!table.rows[k].fallback.empty()) set_fallback(table.rows[k], map.values[k]);
+  return map;
+}
+
 const KeyRow& row_of(const KeyTable& table, std::string_view key) {
   const KeyRow* row = find_row(table, key);
   assert(row != nullptr);

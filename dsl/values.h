@@ -35,6 +35,9 @@ struct MapValues {
 // row's own slug for values beyond its range, and those of the table's rules.
 MapValues read_map(const Context& context, uint32_t node, const KeyTable& table);
 
+// The values of a map that is not there: the table's fallbacks.
+MapValues default_values(const KeyTable& table);
+
 // The row of a key that the table has.
 const KeyRow& row_of(const KeyTable& table, std::string_view key);
 

@@ -30,6 +30,7 @@ void read_let(const Context& context, uint32_t node, VariableTable& variables) {
       variables.prefix.push_back(context.prefix);
       variables.node.push_back(value);
       variables.value.push_back(0);
+      variables.definition.emplace_back();
       variables.state.push_back(VariableTable::State::kWaiting);
     } else {
       add_error(context.messages, place_of(tree, key), "duplicate-id",
@@ -88,6 +89,7 @@ void define_variables(const Context& context, const std::vector<std::string>& de
                       near.empty() ? "" : fmt::format("; did you mean '{}'?", escape_text(near))));
     } else {
       variables.value[row->second] = value;
+      variables.definition[row->second] = "-D " + shown;
       variables.state[row->second] = VariableTable::State::kKnown;
     }
   }

@@ -15,8 +15,9 @@ struct VariableTable {
   enum class State : uint8_t { kWaiting, kBusy, kKnown, kFailed };
   std::vector<std::string> name;    // with the prefix of its include
   std::vector<std::string> prefix;  // of the file that it stands in
-  std::vector<uint32_t> node;       // its value in the tree, or kNone (defined by the command line)
+  std::vector<uint32_t> node;       // its value in the tree
   std::vector<double> value;
+  std::vector<std::string> definition;  // "-D w=8" where the command line gave the value, else empty
   std::vector<State> state;
   std::unordered_map<std::string, uint32_t> row_of;
   size_t size() const { return name.size(); }

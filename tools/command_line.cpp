@@ -1,10 +1,15 @@
 // Command line -> Options; the one door to CLI11. CLI11 splits the words and prints the lists of flags;
-// values are read here, because CLI11 takes nan for a number and 010 for eight.
+// values are read here, because CLI11 takes nan for a number and 010 for eight. What a flag's value is called
+// (FILE, DIR, a|b|c) is also what shells complete it with.
 #include "command_line.h"
 
+#include "completion.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
 #include "exporters.h"
+#include "flag_values.h"
+#include "help.h"
+#include "schema.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
@@ -12,91 +17,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 
 namespace patchlight {
 namespace {
-
-constexpr const char* kMainHelp =
-    R"(patchlight turns a text scene of polygons into light (radiosity), pass by pass.
-
-Examples:
-  patchlight render room.yaml                       pictures after passes 1, 2 and 16 into out/
-  patchlight render room.yaml -o lit --format png,exr,csv
-  patchlight check room.yaml                        is the scene right, and what would it take?
-  patchlight render --help                          all flags of render
-)";
-
-constexpr const char* kRenderHelp = R"(Solves a scene and writes pictures, and a report, while it goes.
-
-Examples:
-  patchlight render room.yaml                       pictures after passes 1, 2 and 16 into out/
-  patchlight render room.yaml --passes 4 --snapshots all --size 640x480
-  patchlight render room.yaml -D w=8 --set solver.threshold=0.05
-  patchlight render room.yaml --camera door --exposure -3.5 --mesh
-  patchlight render room.yaml --format exr,csv      numbers instead of pictures
-  generate_scene | patchlight render - -o lit       a scene from standard input
-
-Flags are stronger than the scene file. The paths of the files are the lines on standard output.
-)";
-
-constexpr const char* kCheckHelp =
-    R"(Reads a scene, says what is wrong with it, counts it and forecasts its memory; solves nothing.
-
-Examples:
-  patchlight check room.yaml
-  patchlight check room.yaml --json                 the messages as a JSON list, for editors
-)";
-
-constexpr const char* kBenchHelp =
-    R"(Measures this build on this machine: kernels beside bare Embree and bare memory, and whole runs of scenes.
-
-Examples:
-  patchlight bench                                  kernels, and the scenes of the folder scenes
-  patchlight bench room.yaml --only scenes          whole runs of one scene
-  patchlight bench --only loading                   large scenes, beside the YAML parser alone
-  patchlight bench --only growth,threads --json b.json
-
-Every figure is a median with its lowest and highest value. Kernels, growth and threads take the first scene.
-)";
-
-[[noreturn]] void fail_usage(const std::string& message) { throw UserError("usage", message); }
-
-std::vector<std::string> split_list(std::string_view text) {
-  std::vector<std::string> parts;
-  size_t begin = 0;
-  while (true) {
-    const size_t comma = text.find(',', begin);
-    parts.emplace_back(text.substr(begin, comma - begin));
-    if (comma == std::string_view::npos) return parts;
-    begin = comma + 1;
-  }
-}
-
-std::vector<std::string> parse_formats(std::string_view text) {
-  const std::vector<std::string> known = exporter_formats();
-  std::vector<std::string> formats;
-  for (const std::string& part : split_list(text)) {
-    if (std::find(known.begin(), known.end(), part) == known.end()) {
-      const std::string near = did_you_mean(part, known);
-      fail_usage(fmt::format("--format: '{}' is not a format{}; known: {}", escape_text(part),
-                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
-                             fmt::join(known, ", ")));
-    }
-    if (std::find(formats.begin(), formats.end(), part) == formats.end()) formats.push_back(part);
-  }
-  return formats;
-}
-
-// The index of `text` in `choices`.
-size_t parse_choice(std::string_view flag, const std::string& text, const std::vector<std::string>& choices) {
-  const auto found = std::find(choices.begin(), choices.end(), text);
-  if (found == choices.end())
-    fail_usage(
-        fmt::format("{}: found '{}', expected one of {}", flag, escape_text(text), fmt::join(choices, ", ")));
-  return static_cast<size_t>(found - choices.begin());
-}
 
 using ReadValue = std::function<void(const std::string&)>;
 
@@ -106,6 +30,13 @@ void add_value(CLI::App& app, const std::string& names, const std::string& place
   app.add_option_function<std::string>(names, std::move(read), help)->type_name(placeholder);
 }
 
+// A flag whose value is one of some words; `read` gets its index.
+void add_choice(CLI::App& app, const std::string& name, const std::vector<std::string>& choices,
+                const std::string& help, std::function<void(size_t)> read) {
+  add_value(app, name, fmt::format("{}", fmt::join(choices, "|")), help,
+            [=](const std::string& text) { read(parse_choice(name, text, choices)); });
+}
+
 // A flag without a value.
 void add_switch(CLI::App& app, const std::string& name, bool& value, const std::string& help) {
   app.add_flag(name, value, help)->disable_flag_override();
@@ -113,9 +44,9 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
 
 // Limits of what a scene may cost, a flag a row of their table.
 void add_limit_flags(CLI::App& app, Options& options) {
-  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more; what is available unless given",
+  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more, such as 2G; what is available unless given",
             [&](const std::string& text) {
-              options.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+              options.max_memory = parse_bytes("--max-memory", text);
             });
   add_value(app, "--max-seconds", "S",
             fmt::format("refuse a run that will likely take longer; {} unless given", options.max_seconds),
@@ -134,30 +65,32 @@ void add_limit_flags(CLI::App& app, Options& options) {
     if (option->get_name().starts_with("--max-")) app.get_option(option->get_name())->group("Limits");
 }
 
-// Flags that change what a solve takes: render and check share them.
-void add_solver_flags(CLI::App& app, Options& options) {
+// The scene, and what changes it before it is read.
+void add_scene(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "a scene file; - reads standard input")->type_name("")->required();
   // One value each time, or they would swallow the scene.
-  app.add_option("-D", options.load.definitions, "NAME=VALUE: a variable of the scene, stronger than its let")
-      ->type_name("")
+  app.add_option("-D", options.load.definitions, "a variable of the scene, stronger than its let")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--set", options.load.overrides,
-                 "PATH=VALUE: any value of the scene, such as solver.rays=64")
-      ->type_name("")
+  app.add_option("--set", options.load.overrides, "any value of the scene, such as solver.rays=64")
+      ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+}
+
+// How the program speaks.
+void add_talk_flags(CLI::App& app, Options& options) {
+  add_switch(app, "--quiet", options.quiet, "no progress and no summary");
+  add_switch(app, "--json", options.json,
+             "messages as a JSON list on standard output, and nothing else there");
+  add_choice(app, "--color", {"auto", "always", "never"}, "colours; auto honours NO_COLOR",
+             [&](size_t choice) { options.color = static_cast<ColorChoice>(choice); });
+}
+
+// Flags that change what a solve takes.
+void add_solver_flags(CLI::App& app, Options& options) {
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
     options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesFlagMax));
   });
-  add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
-    options.snapshots_all = text == "all";
-    if (!options.snapshots_all) options.snapshots = parse_snapshots(text);
-  });
-  add_value(app, "--camera", "NAME", "only this camera of the scene", [&](const std::string& text) {
-    if (text.empty()) fail_usage("--camera: expected the name of a camera");
-    options.camera = text;
-  });
-  add_value(app, "--size", "WxH", "pixels of the pictures, such as 960x720",
-            [&](const std::string& text) { options.size = parse_size(text); });
   add_value(app, "--rays", "N", "rays a row of form factors; more: less noise, more time",
             [&](const std::string& text) {
               options.rays = static_cast<uint32_t>(parse_count("--rays", text, 1, 1'000'000));
@@ -177,49 +110,85 @@ void add_solver_flags(CLI::App& app, Options& options) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
     options.load.limits.starting_patches = *options.max_patches;
   });
-  add_value(app, "--form-factors", "HOW",
-            "cached, or recompute: less memory, more time, the same result; as memory allows unless given",
-            [&](const std::string& text) {
-              options.keep_rows = parse_choice("--form-factors", text, {"cached", "recompute"}) == 0;
-            });
-  add_switch(app, "--quiet", options.quiet, "no progress and no summary");
-  add_switch(app, "--json", options.json,
-             "messages as a JSON list on standard output, and nothing else there");
+  add_choice(app, "--form-factors", {"cached", "recompute"},
+             "recompute: less memory, more time, the same result; as memory allows unless given",
+             [&](size_t choice) { options.keep_rows = choice == 0; });
   add_limit_flags(app, options);
-  add_value(
-      app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {
-        options.color = static_cast<ColorChoice>(parse_choice("--color", text, {"auto", "always", "never"}));
-      });
 }
 
-void add_render_flags(CLI::App& app, Options& options) {
-  add_value(app, "-o", "DIR", "where the files go; out unless given", [&](const std::string& text) {
-    if (text.empty()) fail_usage("-o: expected a directory");
-    options.out = text;
+// Flags that change which pictures there are.
+void add_picture_flags(CLI::App& app, Options& options) {
+  add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
+    options.snapshots_all = text == "all";
+    if (!options.snapshots_all) options.snapshots = parse_snapshots(text);
   });
-  add_value(app, "--shading", "KIND", "smooth, or flat: one colour a patch", [&](const std::string& text) {
-    options.shading = static_cast<Shading>(parse_choice("--shading", text, {"smooth", "flat"}));
+  add_value(app, "--camera", "NAME", "only this camera of the scene", [&](const std::string& text) {
+    if (text.empty()) fail_usage("--camera: expected the name of a camera");
+    options.camera = text;
   });
-  add_switch(app, "--mesh", options.mesh, "draw the borders of the patches");
+  add_value(app, "--size", "WxH", "pixels of the pictures, such as 960x720",
+            [&](const std::string& text) { options.size = parse_size(text); });
+}
+
+// Flags that change how pictures look.
+void add_look_flags(CLI::App& app, Options& options) {
+  add_choice(app, "--shading", {"smooth", "flat"}, "smooth, or flat: one colour a patch",
+             [&](size_t choice) { options.shading = static_cast<Shading>(choice); });
   add_value(app, "--exposure", "EV", "auto, or EV: the picture shows B * 2^EV", [&](const std::string& text) {
     options.exposure_auto = text == "auto";
     if (!options.exposure_auto) options.exposure_ev = parse_number("--exposure", text, -100, 100);
   });
-  add_value(app, "--format", "LIST",
-            fmt::format("files to write, of {}; png unless given", fmt::join(exporter_formats(), ",")),
+}
+
+void add_check_flags(CLI::App& app, Options& options) {
+  add_scene(app, options);
+  add_solver_flags(app, options);
+  add_picture_flags(app, options);
+  add_talk_flags(app, options);
+}
+
+void add_render_flags(CLI::App& app, Options& options) {
+  add_check_flags(app, options);
+  add_look_flags(app, options);
+  add_value(app, "-o", "DIR", "where the files go; out unless given", [&](const std::string& text) {
+    if (text.empty()) fail_usage("-o: expected a directory");
+    options.out = text;
+  });
+  add_switch(app, "--mesh", options.mesh, "draw the borders of the patches");
+  add_value(app, "--format", fmt::format("{},...", fmt::join(exporter_formats(), "|")),
+            "files to write; png unless given",
             [&](const std::string& text) { options.formats = parse_formats(text); });
   add_value(app, "--report", "FILE", "where the report goes; beside the pictures unless given",
             [&](const std::string& text) {
               if (text.empty()) fail_usage("--report: expected a file");
               options.report = text;
             });
+  add_switch(app, "--require-convergence", options.require_convergence,
+             "exit code 6 where the passes end before `until` is reached");
+}
+
+void add_verify_flags(CLI::App& app, Options& options) {
+  add_scene(app, options);
+  add_solver_flags(app, options);
+  add_talk_flags(app, options);
+}
+
+void add_show_flags(CLI::App& app, Options& options) {
+  add_check_flags(app, options);
+  add_look_flags(app, options);
+  add_switch(app, "--effective", options.effective, "the merged settings with their origins");
+}
+
+void add_schema_flags(CLI::App& app, Options& options) { add_talk_flags(app, options); }
+
+void add_completion_flags(CLI::App& app, Options& options) {
+  app.add_option("SHELL", options.shell, "bash or zsh")->type_name("")->required();
 }
 
 void add_bench_flags(CLI::App& app, Options& options) {
   BenchOptions& bench = options.bench;
   app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
-  add_value(app, "--only", "LIST",
-            "sections, of kernels,scenes,loading,growth,threads; the first two unless given",
+  add_value(app, "--only", "kernels|scenes|loading|growth|threads,...", "sections; the first two unless given",
             [&](const std::string& text) {
               bench.sections = split_list(text);
               for (const std::string& section : bench.sections)
@@ -240,10 +209,34 @@ void add_bench_flags(CLI::App& app, Options& options) {
     bench.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
   });
   add_value(app, "--max-memory", "BYTES", "growth stops before a mesh that may need more",
-            [&](const std::string& text) {
-              bench.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
-            });
+            [&](const std::string& text) { bench.max_memory = parse_bytes("--max-memory", text); });
   add_switch(app, "--quiet", options.quiet, "no progress");
+}
+
+// A verb: its name, what --help says, and its flags.
+struct VerbRow {
+  const char* name;
+  Verb verb;
+  const char* summary;  // in the list of verbs
+  const char* help;
+  void (*add_flags)(CLI::App&, Options&);
+};
+constexpr VerbRow kVerbs[] = {
+    {"render", Verb::kRender, "solve a scene, write pictures and a report", kRenderHelp, add_render_flags},
+    {"check", Verb::kCheck, "what is wrong with a scene, and what would it take?", kCheckHelp,
+     add_check_flags},
+    {"verify", Verb::kVerify, "does the light come out as the scene expects?", kVerifyHelp, add_verify_flags},
+    {"show", Verb::kShow, "which settings hold, and where each comes from", kShowHelp, add_show_flags},
+    {"bench", Verb::kBench, "how fast is it here?", kBenchHelp, add_bench_flags},
+    {"schema", Verb::kPrinted, "JSON Schema of the scene language, for editors", kSchemaHelp,
+     add_schema_flags},
+    {"completion", Verb::kPrinted, "completion for bash and zsh", kCompletionHelp, add_completion_flags},
+};
+
+std::vector<std::string> verb_names() {
+  std::vector<std::string> names;
+  for (const VerbRow& row : kVerbs) names.emplace_back(row.name);
+  return names;
 }
 
 std::vector<std::string> flag_names(const CLI::App& app) {
@@ -263,10 +256,8 @@ std::vector<std::string> flag_names(const CLI::App& app) {
   if (flag == extras.end())
     fail_usage(fmt::format("'{}' is one argument too many; expected one scene", escape_text(extras.front())));
   const std::string word = flag->substr(0, flag->find('='));
-  const std::string near = did_you_mean(word, flag_names(verb));
   fail_usage(fmt::format("{} has no flag '{}'{}; see patchlight {} --help", verb.get_name(),
-                         escape_text(word), near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
-                         verb.get_name()));
+                         escape_text(word), hint(word, flag_names(verb)), verb.get_name()));
 }
 
 // They are read more than once.
@@ -276,68 +267,41 @@ void check_bench_scenes(const std::vector<std::string>& scenes) {
       fail_usage(fmt::format("bench: found '{}', expected the path of a scene file", scene));
 }
 
-void check_verb(const std::vector<std::string>& arguments, const std::vector<std::string>& verbs) {
-  if (arguments.empty())
-    fail_usage(fmt::format("expected a verb: {}; see patchlight --help", fmt::join(verbs, " or ")));
+void check_verb(const std::vector<std::string>& arguments) {
+  const std::vector<std::string> verbs = verb_names();
+  const std::string listed = fmt::format("{}", fmt::join(verbs, ", "));
+  if (arguments.empty()) fail_usage(fmt::format("expected a verb: {}; see patchlight --help", listed));
   const std::string& word = arguments.front();
   std::vector<std::string> known = verbs;
   known.insert(known.end(), {"--help", "-h", "--version"});
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
-  const std::string near = did_you_mean(word, known);
+  const std::string near = hint(word, known);
   fail_usage(fmt::format("no {} '{}'{}; see patchlight --help", word[0] == '-' ? "flag" : "verb",
-                         escape_text(word),
-                         near.empty() ? fmt::format("; expected {}", fmt::join(verbs, " or "))
-                                      : fmt::format("; did you mean '{}'?", near)));
+                         escape_text(word), near.empty() ? "; expected " + listed : near));
+}
+
+// What shells complete: every verb with its flags, as CLI11 knows them.
+std::vector<VerbWords> list_words(const std::vector<CLI::App*>& verbs) {
+  std::vector<VerbWords> list;
+  for (const CLI::App* verb : verbs) {
+    VerbWords words{verb->get_name(), verb->get_description(), {}, {}};
+    for (const CLI::Option* option : verb->get_options()) {
+      if (option->get_positional()) {
+        words.argument = option->get_name();
+        continue;
+      }
+      FlagWords flag{
+          {}, option->get_expected_max() > 0 ? option->get_type_name() : "", option->get_description()};
+      for (const std::string& name : option->get_snames()) flag.names.push_back("-" + name);
+      for (const std::string& name : option->get_lnames()) flag.names.push_back("--" + name);
+      words.flags.push_back(std::move(flag));
+    }
+    list.push_back(std::move(words));
+  }
+  return list;
 }
 
 }  // namespace
-
-uint64_t parse_count(std::string_view flag, std::string_view text, uint64_t low, uint64_t high) {
-  uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole =
-      !text.empty() && end == text.data() + text.size() && error != std::errc::invalid_argument;
-  const bool leading_zero = text.size() > 1 && text[0] == '0';
-  if (!whole || leading_zero)
-    fail_usage(fmt::format("{}: found '{}', expected a whole number", flag, escape_text(text)));
-  if (error == std::errc::result_out_of_range || value < low || value > high)
-    fail_usage(fmt::format("{}: {} is outside {} to {}", flag, escape_text(text), low, high));
-  return value;
-}
-
-double parse_number(std::string_view flag, std::string_view text, double low, double high) {
-  // from_chars would also take inf, nan and 010.
-  std::string_view digits = text;
-  if (!digits.empty() && digits[0] == '-') digits.remove_prefix(1);
-  const bool starts_well = !digits.empty() && (digits[0] == '.' || (digits[0] >= '0' && digits[0] <= '9'));
-  const bool leading_zero = digits.size() > 1 && digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9';
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (!starts_well || leading_zero || end != text.data() + text.size() ||
-      error == std::errc::invalid_argument)
-    fail_usage(fmt::format("{}: found '{}', expected a number", flag, escape_text(text)));
-  if (error != std::errc{} || !(value >= low && value <= high))
-    fail_usage(fmt::format("{}: {} is outside {} to {}", flag, escape_text(text), low, high));
-  return value;
-}
-
-std::vector<uint32_t> parse_snapshots(std::string_view text) {
-  std::vector<uint32_t> passes;
-  for (const std::string& part : split_list(text))
-    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesFlagMax)));
-  std::sort(passes.begin(), passes.end());
-  passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
-  return passes;
-}
-
-std::array<uint32_t, 2> parse_size(std::string_view text) {
-  const size_t cross = text.find('x');
-  if (cross == std::string_view::npos)
-    fail_usage(fmt::format("--size: found '{}', expected WIDTHxHEIGHT, such as 960x720", escape_text(text)));
-  const uint64_t width = parse_count("--size", text.substr(0, cross), 1, ~uint32_t{0});
-  const uint64_t height = parse_count("--size", text.substr(cross + 1), 1, ~uint32_t{0});
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-}
 
 Options parse_command_line(const std::vector<std::string>& arguments) {
   Options options;
@@ -345,23 +309,24 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   app.name("patchlight");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  CLI::App* render = app.add_subcommand("render", "solve a scene, write pictures and a report");
-  add_solver_flags(*render, options);
-  add_render_flags(*render, options);
-  CLI::App* check = app.add_subcommand("check", "what is wrong with a scene, and what would it take?");
-  add_solver_flags(*check, options);
-  CLI::App* bench = app.add_subcommand("bench", "how fast is it here?");
-  add_bench_flags(*bench, options);
-  for (CLI::App* verb : {render, check, bench}) verb->allow_extras();
-  check_verb(arguments, {"render", "check", "bench"});
+  std::vector<CLI::App*> verbs;
+  for (const VerbRow& row : kVerbs) {
+    CLI::App* verb = verbs.emplace_back(app.add_subcommand(row.name, row.summary));
+    row.add_flags(*verb, options);
+    verb->allow_extras();
+  }
+  check_verb(arguments);
+  const auto parsed = [&] {
+    return static_cast<size_t>(
+        std::find_if(verbs.begin(), verbs.end(), [](const CLI::App* verb) { return verb->parsed(); }) -
+        verbs.begin());
+  };
 
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
     // The list of verbs shows the short descriptions, a verb's own help the long one.
-    render->description(kRenderHelp);
-    check->description(kCheckHelp);
-    bench->description(kBenchHelp);
+    if (const size_t k = parsed(); k < verbs.size()) verbs[k]->description(kVerbs[k].help);
     options.text = app.help();
     return options;
   } catch (const CLI::CallForVersion&) {
@@ -373,19 +338,23 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
       fail_usage(fmt::format("--{}: takes no value", words.substr(0, words.find(' '))));
     fail_usage(fmt::format("{}: expected exactly one value, given once", words.substr(0, words.find(':'))));
   } catch (const CLI::ParseError& error) {
-    CLI::App* verb = render->parsed() ? render : check->parsed() ? check : nullptr;
-    if (verb != nullptr && !verb->remaining().empty()) fail_extra(verb->remaining(), *verb);
+    const size_t k = parsed();
+    if (k < verbs.size() && !verbs[k]->remaining().empty()) fail_extra(verbs[k]->remaining(), *verbs[k]);
     fail_usage(escape_text(error.what(), 300));
   }
-  CLI::App& verb = render->parsed() ? *render : check->parsed() ? *check : *bench;
+  const VerbRow& row = kVerbs[parsed()];
+  const CLI::App& verb = *verbs[parsed()];
   if (!verb.remaining().empty()) fail_extra(verb.remaining(), verb);
-  if (bench->parsed()) {
-    check_bench_scenes(options.bench.scenes);
-    options.verb = Verb::kBench;
-    return options;
-  }
-  if (options.scene.empty()) fail_usage("expected a scene file");
-  options.verb = render->parsed() ? Verb::kRender : Verb::kCheck;
+  options.verb = row.verb;
+  if (row.verb == Verb::kBench) check_bench_scenes(options.bench.scenes);
+  const CLI::Option* scene = verb.get_option_no_throw("SCENE");
+  if (scene != nullptr && scene->get_required() && options.scene.empty()) fail_usage("expected a scene file");
+  if (row.verb == Verb::kShow && !options.effective)
+    fail_usage("show: say what: --effective shows the merged settings");
+  if (row.name == std::string_view("schema")) options.text = format_schema();
+  if (row.name == std::string_view("completion"))
+    options.text = format_completion(
+        static_cast<Shell>(parse_choice("completion", options.shell, {"bash", "zsh"})), list_words(verbs));
   return options;
 }
 

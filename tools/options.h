@@ -12,7 +12,8 @@
 
 namespace patchlight {
 
-enum class Verb { kRender, kCheck, kBench, kPrinted };  // kPrinted: help or versions, `text` holds them
+// kPrinted: help, versions, a schema ...: `text` holds what is to be printed.
+enum class Verb { kRender, kCheck, kVerify, kShow, kBench, kPrinted };
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
@@ -54,6 +55,9 @@ struct Options {
   std::optional<bool> keep_rows;       // form factors cached or computed again; empty: as memory allows
   std::vector<std::string> formats = {"png"};
   std::string report;  // empty: beside the pictures
+  bool require_convergence = false;
+  bool effective = false;  // show: the merged settings
+  std::string shell;       // completion: which
   bool quiet = false;
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;

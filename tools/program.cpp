@@ -7,6 +7,8 @@
 #include "files.h"
 #include "json.h"
 #include "render.h"
+#include "show.h"
+#include "verify.h"
 
 #include <fmt/format.h>
 
@@ -36,6 +38,10 @@ int run_verb(const Options& options, Talk& talk) {
       return render(options, talk);
     case Verb::kCheck:
       return check(options, talk);
+    case Verb::kVerify:
+      return verify(options, talk);
+    case Verb::kShow:
+      return show(options, talk);
     case Verb::kBench:
       return bench(options, talk);
     case Verb::kPrinted:

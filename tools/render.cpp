@@ -7,6 +7,7 @@
 #include "export_report.h"
 #include "exposure.h"
 #include "files.h"
+#include "start.h"
 #include "stop.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 
 namespace patchlight {
 namespace {
+
+constexpr int kExitNotConverged = 6;
 
 struct Stopwatch {
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -39,13 +42,6 @@ struct Run {
   JobQueue jobs;
   explicit Run(Talk& talk_of_program) : talk(talk_of_program) {}
 };
-
-size_t start_threads(const Options& options, Talk& talk) {
-  const size_t asked = options.threads ? *options.threads : thread_count_default();
-  const size_t granted = set_thread_count(asked);
-  if (granted < asked) say(talk, fmt::format("the system grants {} of {} threads", granted, asked));
-  return granted;
-}
 
 View make_view(const Camera& camera) {
   return {.eye = Vec3(camera.eye),
@@ -281,7 +277,8 @@ int render(const Options& options, Talk& talk) {
     for (const std::string& path : run.pictures) paths += path + "\n";
     print_result(paths);
   }
-  return run.report.stopped_reason == "signal" ? 128 + stop_signal() : 0;
+  if (run.report.stopped_reason == "signal") return 128 + stop_signal();
+  return options.require_convergence && run.report.stopped_reason != "converged" ? kExitNotConverged : 0;
 }
 
 }  // namespace patchlight

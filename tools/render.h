@@ -6,7 +6,8 @@
 
 namespace patchlight {
 
-// Returns the exit code: 0, or 128 + the signal that stopped the run. Throws UserError.
+// Returns the exit code: 0, 6 where convergence is required and was not reached, or 128 + the signal that
+// stopped the run. Throws UserError.
 int render(const Options& options, Talk& talk);
 
 }  // namespace patchlight

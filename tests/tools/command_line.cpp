@@ -119,6 +119,17 @@ TEST_CASE("mistakes on the command line are usage errors that say what was meant
       {{"render", "a.yaml", "--shading", "round"}, "expected one of smooth, flat"},
       {{"render", "a.yaml", "--format", "pgn"}, "did you mean 'png'?"},
       {{"render", "a.yaml", "--color", "often"}, "expected one of auto, always, never"},
+      {{"render", "a.yaml", "--shading", "smoth"}, "did you mean 'smooth'?"},
+      {{"verifi", "a.yaml"}, "did you mean 'verify'?"},
+      {{"verify", "a.yaml", "-o", "out"}, "verify has no flag '-o'"},
+      {{"show", "a.yaml"}, "--effective"},
+      {{"show", "a.yaml", "--efective"}, "did you mean '--effective'?"},
+      {{"schema", "a.yaml"}, "'a.yaml' is one argument too many"},
+      {{"completion"}, "SHELL is required"},
+      {{"completion", "bsh"}, "did you mean 'bash'?"},
+      {{"render", "a.yaml", "--max-memory", "lots"}, "expected a whole number"},
+      {{"render", "a.yaml", "--max-memory", "0"}, "0 is outside"},
+      {{"render", "a.yaml", "--max-memory", "99999999999999999999T"}, "outside"},
       {{"render", "a.yaml", "-o", ""}, "expected a directory"},
   };
   for (const Mistake& mistake : mistakes) {
@@ -157,8 +168,14 @@ TEST_CASE("text from the command line is printed escaped") {
 }
 
 TEST_CASE("help leads with examples") {
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--help"}, {"render", "--help"}, {"check", "-h"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                {"render", "--help"},
+                                                {"check", "-h"},
+                                                {"verify", "--help"},
+                                                {"show", "--help"},
+                                                {"bench", "--help"},
+                                                {"schema", "--help"},
+                                                {"completion", "--help"}}) {
     const Options options = parse_command_line(words);
     CHECK((options.verb == Verb::kPrinted));
     CHECK(options.text.find("Examples:") < options.text.find("Usage:"));
@@ -173,6 +190,12 @@ TEST_CASE("numbers are read whole") {
   CHECK(parse_number("--exposure", "1e-2", -1, 1) == 0.01);
   for (const char* text : {"", "-", "+1", " 1", "1 ", "0x1", "1.5m", "01"})
     CHECK_THROWS_AS(parse_number("--exposure", text, -10, 10), UserError);
+  CHECK(parse_bytes("--max-memory", "123") == 123);
+  CHECK(parse_bytes("--max-memory", "5k") == 5000);
+  CHECK(parse_bytes("--max-memory", "2G") == 2'000'000'000);
+  CHECK(parse_bytes("--max-memory", "18446744T") == 18'446'744'000'000'000'000u);
+  CHECK_THROWS_AS(parse_bytes("--max-memory", "18446745T"), UserError);
+  CHECK_THROWS_AS(parse_bytes("--max-memory", "G"), UserError);
   CHECK(parse_count("--seed", "0", 0, 10) == 0);
   CHECK(parse_count("--seed", "18446744073709551615", 0, ~uint64_t{0}) == ~uint64_t{0});
   CHECK_THROWS_AS(parse_count("--seed", "18446744073709551616", 0, ~uint64_t{0}), UserError);

@@ -2,6 +2,7 @@
 #include "tools/bench/solve_case.h"
 
 #include "dsl/load.h"
+#include "tools/expectations.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -42,20 +43,6 @@ double find_furnace_error(const Solution& solution, const FaceTable& faces) {
       error = std::max(error, std::abs(solution.elements.radiosity[row][channel] / exact - 1));
   }
   return error;
-}
-
-DRgb find_mean_radiosity(const Solution& solution, const Scene& scene, const Expectation& expectation) {
-  DRgb sum(0);
-  double area = 0;
-  const PatchTable& elements = solution.elements;
-  for (const uint32_t polygon : expectation.polygons)
-    for (uint32_t f = scene.polygons.face_first[polygon]; f < scene.polygons.face_first[polygon + 1]; ++f)
-      for (uint32_t row = elements.face_first[f]; row < elements.face_first[f + 1]; ++row) {
-        const double exposed_area = double{elements.area[row]} * elements.exposed[row];
-        sum += exposed_area * DRgb(elements.radiosity[row]);
-        area += exposed_area;
-      }
-  return area > 0 ? sum / area : sum;
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+// The verb show: a scene -> its merged settings, each with where it comes from.
+#pragma once
+
+#include "options.h"
+#include "talk.h"
+
+namespace patchlight {
+
+// Returns the exit code 0. Throws UserError.
+int show(const Options& options, Talk& talk);
+
+// The settings of a scene with the flags put over them; make_plan has changed the scene by them already.
+SettingTable merge_flags(const Scene& scene, const Options& options);
+
+}  // namespace patchlight
