@@ -48,6 +48,7 @@ void check_included(const Reader& reader, const MapValues& map) {
     if (const uint32_t node = value_of(map, key).node; node != kNone)
       add_error(reader.context.messages, place_of(reader.tree, node), "unknown-key",
                 fmt::format("'{}' belongs into the scene itself, not into a file that it includes", key));
+  check_version_known(reader.context, map);
   const Value& units = value_of(map, "units");
   if (units.node != kNone && units.integer[0] != reader.unit)
     add_error(reader.context.messages, place_of(reader.tree, units.node), "bad-unit",

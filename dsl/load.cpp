@@ -13,6 +13,7 @@
 #include "overrides.h"
 #include "settings.h"
 #include "source.h"
+#include "suspicious.h"
 #include "tree.h"
 #include "values.h"
 #include "variables.h"
@@ -34,10 +35,7 @@ void check_version(const Context& context, const MapValues& map) {
   if (version.node == kNone)
     add_error(context.messages, {place_of(context.tree, map.node).file, 1, 1}, "missing-version",
               "the language's version is missing: add 'patchlight: 1' as the first line");
-  else if (version.integer[0] > kLanguageVersion)
-    add_error(context.messages, place_of(context.tree, version.node), "version-too-new",
-              fmt::format("version {} of the language is newer than this program, which knows version {}",
-                          version.integer[0], kLanguageVersion));
+  check_version_known(context, map);
 }
 
 // The node of a key, where it is there and of the right kind.
@@ -154,6 +152,8 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
     read_expectations(context, list, scene);
   throw_errors(messages);
   warn_of_materials(context, objects.materials, root);
+  warn_of_flipped(messages, tree, objects.materials, objects.objects, objects.outlines);
+  warn_of_overlaps(messages, tree, objects.objects, objects.outlines, scene);
   convert_lengths(scene);
   if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.faces));
   scene.settings = list_settings(context, map, scene);

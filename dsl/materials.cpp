@@ -27,7 +27,9 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
         materials.row_of.emplace(context.prefix + name, static_cast<uint32_t>(materials.size()));
     if (!is_new)
       add_error(context.messages, place_of(tree, key), "duplicate-id",
-                fmt::format("the material '{}' is defined by another file too", escape_text(row->first)));
+                fmt::format("the material '{}' is taken: first defined at {}", escape_text(row->first),
+                            place_text(context.messages, place_of(tree, materials.node[row->second]),
+                                       place_of(tree, key))));
     materials.name.push_back(context.prefix + name);
     materials.reflectance.push_back(reflectance);
     materials.emission.push_back(vec3_of(value_of(map, "emission")));

@@ -99,6 +99,11 @@ void add_warning(Messages& messages, Place place, std::string_view slug, std::st
     ++row->count;
 }
 
+std::string place_text(const Messages& messages, Place place, Place from) {
+  const std::string where = fmt::format("{}:{}", place.line, place.column);
+  return place.file == from.file ? where : escape_text(messages.files[place.file].name, 200) + ":" + where;
+}
+
 bool wants_errors(const Messages& messages) { return messages.errors.size() < kErrorsShown; }
 
 bool wants_warnings(const Messages& messages, std::string_view slug) {

@@ -48,6 +48,9 @@ void add_error(Messages& messages, Place place, std::string_view slug, std::stri
 void add_command_line_error(Messages& messages, std::string_view slug, std::string message);  // has no place
 void add_warning(Messages& messages, Place place, std::string_view slug, std::string message);
 
+// "b.yaml:3:7" for a place, or only "3:7" where it is in the file of `from`.
+std::string place_text(const Messages& messages, Place place, Place from);
+
 // True while errors are kept: costly hints need not be worked out beyond that.
 bool wants_errors(const Messages& messages);
 

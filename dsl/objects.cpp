@@ -76,12 +76,10 @@ void check_counts(const Context& context, uint32_t node, SceneObjects& scene) {
 }
 
 void report_duplicate_id(const Context& context, uint32_t node, std::string_view id, uint32_t first) {
-  const Place place = place_of(context.tree, node), before = place_of(context.tree, first);
-  const std::string file =
-      before.file == place.file ? "" : escape_text(context.messages.files[before.file].name, 200) + ":";
+  const Place place = place_of(context.tree, node);
   add_error(context.messages, place, "duplicate-id",
-            fmt::format("the id '{}' is taken: first defined at {}{}:{}", escape_text(id), file, before.line,
-                        before.column));
+            fmt::format("the id '{}' is taken: first defined at {}", escape_text(id),
+                        place_text(context.messages, place_of(context.tree, first), place)));
 }
 
 }  // namespace

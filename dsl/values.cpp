@@ -327,6 +327,14 @@ MapValues read_map(const Context& context, uint32_t node, const KeyTable& table)
   return map;
 }
 
+void check_version_known(const Context& context, const MapValues& scene_keys) {
+  const Value& version = value_of(scene_keys, "patchlight");
+  if (version.node == kNone || version.integer[0] <= kLanguageVersion) return;
+  report(context, version.node, "version-too-new",
+         fmt::format("version {} of the language is newer than this program, which knows version {}",
+                     version.integer[0], kLanguageVersion));
+}
+
 MapValues default_values(const KeyTable& table) {
   MapValues map;
   map.table = &table;

@@ -46,6 +46,9 @@ const Value& value_of(const MapValues& values, std::string_view key);
 inline bool has(const MapValues& values, std::string_view key) { return value_of(values, key).node != kNone; }
 inline DVec3 vec3_of(const Value& value) { return DVec3(value.number[0], value.number[1], value.number[2]); }
 
+// Reports version-too-new where a file's keys name a version that this program does not know.
+void check_version_known(const Context& context, const MapValues& scene_keys);
+
 // Checks one value against a row; false after an error. For values that stand in lists of their own.
 bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value& value);
 

@@ -34,7 +34,9 @@ void read_let(const Context& context, uint32_t node, VariableTable& variables) {
       variables.state.push_back(VariableTable::State::kWaiting);
     } else {
       add_error(context.messages, place_of(tree, key), "duplicate-id",
-                fmt::format("the variable '{}' is defined by another file too", escape_text(row->first)));
+                fmt::format("the variable '{}' is taken: first defined at {}", escape_text(row->first),
+                            place_text(context.messages, place_of(tree, variables.node[row->second]),
+                                       place_of(tree, key))));
     }
     key = tree.nodes[value].next;
   }

@@ -37,6 +37,30 @@ TEST_CASE("numbers in every form of YAML 1.2") {
   }
 }
 
+TEST_CASE("numbers near 0 are 0, those too large are refused, however they are written") {
+  double value = -1;
+  const std::string zeros(400, '0');
+  for (const std::string& text :
+       std::vector<std::string>{"1e-400", "-1e-99999999999999999999", "0." + zeros + "1", "123.5e-500"}) {
+    CAPTURE(text);
+    CHECK(read(text, value) == "");
+    CHECK(value == 0);
+  }
+  for (const std::string& text :
+       std::vector<std::string>{"1e400", "1" + zeros + "e-5", "0.1e99999999999999999999"}) {
+    CAPTURE(text);
+    CHECK(read(text, value) == "number-out-of-range");
+  }
+}
+
+TEST_CASE("numbers in messages are whole where they are, and else as short as tells them apart") {
+  CHECK(number_text(200000) == "200000");
+  CHECK(number_text(-3) == "-3");
+  CHECK(number_text(0.1) == "0.1");
+  CHECK(number_text(1.0000000001) == "1.0000000001");
+  CHECK(number_text(1e20) == "1e+20");
+}
+
 TEST_CASE("what is no number, or not the same one to everybody, is refused") {
   const std::pair<const char*, const char*> rows[] = {
       {"abc", "expected-number"},   {"0x10", "expected-number"},      {"1_000", "expected-number"},

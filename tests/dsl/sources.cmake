@@ -17,8 +17,10 @@ set(DSL_TEST_SOURCES
   dsl/shape_repeat.cpp
   dsl/shape_round.cpp
   dsl/source.cpp
+  dsl/suspicious.cpp
   dsl/transform.cpp
   dsl/tree.cpp
   dsl/variables.cpp
+  dsl/wrong_records.cpp
   dsl/wrong_scenes.cpp
 )

@@ -36,6 +36,12 @@ inline Loaded load(const std::string& text, const Limits& limits = {}) {
   return loaded;
 }
 
+inline std::string repeat_text(std::string_view text, size_t count) {
+  std::string all;
+  for (size_t k = 0; k < count; ++k) all += text;
+  return all;
+}
+
 inline size_t count_slug(const std::vector<Diagnostic>& list, std::string_view slug) {
   size_t count = 0;
   for (const Diagnostic& row : list) count += row.slug == slug;

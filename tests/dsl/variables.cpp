@@ -45,6 +45,16 @@ TEST_CASE("a chain of definitions may be long, in any order, and a ring of them 
   CHECK(ring.errors[0].message == "'v100' is defined by itself");
 }
 
+TEST_CASE("definitions are numbers as scenes have them") {
+  const std::pair<const char*, double> rows[] = {{"w=+2", 2}, {"w=.5", 0.5}, {"w=2e0", 2}, {"w=5.", 5}};
+  for (const auto& [definition, width] : rows) {
+    CAPTURE(definition);
+    const Loaded loaded = load_with(kWide, {{definition}, {}});
+    REQUIRE(loaded.errors.empty());
+    CHECK(face_area(loaded.scene, 0) == doctest::Approx(2 * width * width));
+  }
+}
+
 TEST_CASE("definitions that are wrong are mistakes of usage") {
   const std::pair<const char*, const char*> rows[] = {{"nosuch=3", "undefined-variable"},
                                                       {"w=nan", "non-finite"},
@@ -53,7 +63,13 @@ TEST_CASE("definitions that are wrong are mistakes of usage") {
                                                       {"w", "usage"},
                                                       {"w=", "usage"},
                                                       {"=3", "usage"},
-                                                      {"w=3x", "usage"}};
+                                                      {"w=3x", "usage"},
+                                                      {"w=.nan", "non-finite"},
+                                                      {"w=-.inf", "non-finite"},
+                                                      {"w=010", "usage"},
+                                                      {"w=--5", "usage"},
+                                                      {"w=0x10", "usage"},
+                                                      {"w==1+1", "usage"}};
   for (const auto& [definition, slug] : rows) {
     CAPTURE(definition);
     const Loaded loaded = load_with(kWide, {{definition}, {}});
