@@ -23,6 +23,8 @@ constexpr double kErrorWidth = 3;
 // A row is a sum of many factors. Small factors get less than their share of the error: standard errors
 // grow with the root of the factor, so that those of a whole row stay near the error that is asked for.
 constexpr double kRowShare = 3;
+// What the estimate before the last says of the error, too, as a share of it.
+constexpr double kErrorKept = 0.8;
 constexpr uint32_t kSamplesMax = 1u << 22;
 
 // A pair of parts whose visibility rays must find.
@@ -178,9 +180,14 @@ Answer find_by_rays(TaskScratch& scratch, const Task& task, const FactorScene& s
   const Sobol sobol = make_sobol(make_row_key(settings.seed, task.part_a, task.part_b, 0, 0));
   PairSums sums;
   Share share{};
+  double error_before = 0;
   do {
     add_samples(sums, scratch.pairs, tracer, sobol, scratch.samples);
     share = find_share(sums);
+    // An error that is small for once does not end it.
+    const double error = share.error;
+    share.error = std::max(error, kErrorKept * error_before);
+    error_before = error;
   } while (share.error * mixed > wanted && sums.sample_count() < kSamplesMax);
   answer.exchange += share.value * mixed;
   answer.error = kErrorWidth * share.error * mixed;

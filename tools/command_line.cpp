@@ -25,6 +25,7 @@ Examples:
   patchlight render room.yaml                       pictures after passes 1, 2 and 16 into out/
   patchlight render room.yaml -o lit --format png,exr,csv
   patchlight check room.yaml                        is the scene right, and what would it take?
+  patchlight factors room.yaml                      view factors between the polygons of a scene, as CSV
   patchlight render --help                          all flags of render
 )";
 
@@ -47,6 +48,19 @@ constexpr const char* kCheckHelp =
 Examples:
   patchlight check room.yaml
   patchlight check room.yaml --json                 the messages as a JSON list, for editors
+)";
+
+constexpr const char* kFactorsHelp =
+    R"(Prints the form factors (view factors) between the polygons of a scene: a row a polygon, with its area, the
+factors to all polygons in the order of the scene, and their sum, which is not adjusted.
+
+Examples:
+  patchlight factors duct.yaml > duct.csv
+  patchlight factors duct.yaml --format json        with an estimated error beside every factor
+  patchlight factors duct.yaml --error 1e-4         more rays where something stands between polygons
+  patchlight factors duct.yaml -D gap=0.02          a variable of the scene
+
+Factors between polygons with nothing in between are exact (1e-6) and need no rays.
 )";
 
 constexpr const char* kBenchHelp =
@@ -110,8 +124,8 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
   app.add_flag(name, value, help)->disable_flag_override();
 }
 
-// Flags that change what a solve takes: render and check share them.
-void add_solver_flags(CLI::App& app, Options& options) {
+// Which scene, and how to go about it: all verbs that load one scene share these.
+void add_scene_flags(CLI::App& app, Options& options) {
   app.add_option("SCENE", options.scene, "a scene file; - reads standard input")->type_name("")->required();
   // One value each time, or they would swallow the scene.
   app.add_option("-D", options.load.definitions, "NAME=VALUE: a variable of the scene, stronger than its let")
@@ -121,6 +135,24 @@ void add_solver_flags(CLI::App& app, Options& options) {
                  "PATH=VALUE: any value of the scene, such as solver.rays=64")
       ->type_name("")
       ->allow_extra_args(false);
+  add_value(app, "--threads", "N", "threads; all cores unless given", [&](const std::string& text) {
+    options.threads = static_cast<uint32_t>(parse_count("--threads", text, 1, kThreadsMax));
+  });
+  add_value(app, "--seed", "N", "another seed, other samples", [&](const std::string& text) {
+    options.seed = parse_count("--seed", text, 0, 4'000'000'000'000'000'000);
+  });
+  add_switch(app, "--quiet", options.quiet, "no progress and no summary");
+  add_switch(app, "--json", options.json,
+             "messages as a JSON list on standard output, and nothing else there");
+  add_value(
+      app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {
+        options.color = static_cast<ColorChoice>(parse_choice("--color", text, {"auto", "always", "never"}));
+      });
+}
+
+// Flags that change what a solve takes: render and check share them.
+void add_solver_flags(CLI::App& app, Options& options) {
+  add_scene_flags(app, options);
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
     options.passes = static_cast<uint32_t>(parse_count("--passes", text, 1, kPassesMax));
   });
@@ -138,22 +170,20 @@ void add_solver_flags(CLI::App& app, Options& options) {
             [&](const std::string& text) {
               options.rays = static_cast<uint32_t>(parse_count("--rays", text, 1, 1'000'000));
             });
-  add_value(app, "--threads", "N", "threads; all cores unless given", [&](const std::string& text) {
-    options.threads = static_cast<uint32_t>(parse_count("--threads", text, 1, kThreadsMax));
-  });
-  add_value(app, "--seed", "N", "another seed, other samples", [&](const std::string& text) {
-    options.seed = parse_count("--seed", text, 0, 4'000'000'000'000'000'000);
-  });
   add_value(app, "--max-patches", "N", "the budget of patches", [&](const std::string& text) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
   });
-  add_switch(app, "--quiet", options.quiet, "no progress and no summary");
-  add_switch(app, "--json", options.json,
-             "messages as a JSON list on standard output, and nothing else there");
-  add_value(
-      app, "--color", "WHEN", "auto, always or never; NO_COLOR is honoured", [&](const std::string& text) {
-        options.color = static_cast<ColorChoice>(parse_choice("--color", text, {"auto", "always", "never"}));
-      });
+}
+
+void add_factor_flags(CLI::App& app, FactorOptions& factors) {
+  add_value(app, "--format", "KIND", "csv or json; csv unless given", [&](const std::string& text) {
+    factors.format = static_cast<FactorFormat>(parse_choice("--format", text, {"csv", "json"}));
+  });
+  add_value(app, "--error", "E", "no estimated error of a factor is larger; 0.001 unless given",
+            [&](const std::string& text) { factors.error = parse_number("--error", text, 1e-6, 1); });
+  add_value(app, "--max-memory", "BYTES", "larger matrices are refused", [&](const std::string& text) {
+    factors.max_memory = parse_count("--max-memory", text, 1, ~uint64_t{0});
+  });
 }
 
 void add_render_flags(CLI::App& app, Options& options) {
@@ -313,10 +343,18 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   add_render_flags(*render, options);
   CLI::App* check = app.add_subcommand("check", "what is wrong with a scene, and what would it take?");
   add_solver_flags(*check, options);
+  CLI::App* factors = app.add_subcommand("factors", "form factors between the polygons of a scene");
+  add_scene_flags(*factors, options);
+  add_factor_flags(*factors, options.factors);
   CLI::App* bench = app.add_subcommand("bench", "how fast is it here?");
   add_bench_flags(*bench, options);
-  for (CLI::App* verb : {render, check, bench}) verb->allow_extras();
-  check_verb(arguments, {"render", "check", "bench"});
+  const std::vector<CLI::App*> verbs = {render, check, factors, bench};
+  std::vector<std::string> names;
+  for (CLI::App* verb : verbs) {
+    verb->allow_extras();
+    names.push_back(verb->get_name());
+  }
+  check_verb(arguments, names);
 
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
@@ -324,6 +362,7 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
     // The list of verbs shows the short descriptions, a verb's own help the long one.
     render->description(kRenderHelp);
     check->description(kCheckHelp);
+    factors->description(kFactorsHelp);
     bench->description(kBenchHelp);
     options.text = app.help();
     return options;
@@ -336,19 +375,19 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
       fail_usage(fmt::format("--{}: takes no value", words.substr(0, words.find(' '))));
     fail_usage(fmt::format("{}: expected exactly one value, given once", words.substr(0, words.find(':'))));
   } catch (const CLI::ParseError& error) {
-    CLI::App* verb = render->parsed() ? render : check->parsed() ? check : nullptr;
-    if (verb != nullptr && !verb->remaining().empty()) fail_extra(verb->remaining(), *verb);
+    for (CLI::App* verb : {render, check, factors})
+      if (verb->parsed() && !verb->remaining().empty()) fail_extra(verb->remaining(), *verb);
     fail_usage(escape_text(error.what(), 300));
   }
-  CLI::App& verb = render->parsed() ? *render : check->parsed() ? *check : *bench;
-  if (!verb.remaining().empty()) fail_extra(verb.remaining(), verb);
+  for (CLI::App* verb : verbs)
+    if (verb->parsed() && !verb->remaining().empty()) fail_extra(verb->remaining(), *verb);
   if (bench->parsed()) {
     check_bench_scenes(options.bench.scenes);
     options.verb = Verb::kBench;
     return options;
   }
   if (options.scene.empty()) fail_usage("expected a scene file");
-  options.verb = render->parsed() ? Verb::kRender : Verb::kCheck;
+  options.verb = render->parsed() ? Verb::kRender : check->parsed() ? Verb::kCheck : Verb::kFactors;
   return options;
 }
 

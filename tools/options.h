@@ -12,7 +12,13 @@
 
 namespace patchlight {
 
-enum class Verb { kRender, kCheck, kBench, kPrinted };  // kPrinted: help or versions, `text` holds them
+enum class Verb {
+  kRender,
+  kCheck,
+  kFactors,
+  kBench,
+  kPrinted
+};  // kPrinted: help or versions, `text` holds them
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
@@ -26,6 +32,14 @@ struct BenchOptions {
   size_t threads = 0;                   // 0: all cores
   uint64_t max_patches = ~uint64_t{0};  // no measured mesh has more
   uint64_t max_memory = ~uint64_t{0};   // bytes: growth stops before
+};
+
+enum class FactorFormat { kCsv, kJson };
+
+struct FactorOptions {
+  FactorFormat format = FactorFormat::kCsv;
+  double error = 1e-3;                 // of each factor, three standard errors
+  uint64_t max_memory = ~uint64_t{0};  // bytes
 };
 
 struct Options {
@@ -52,6 +66,7 @@ struct Options {
   bool quiet = false;
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;
+  FactorOptions factors;
   BenchOptions bench;
 };
 

@@ -8,6 +8,7 @@
 #include "exposure.h"
 #include "files.h"
 #include "stop.h"
+#include "threads.h"
 
 #include <fmt/format.h>
 
@@ -39,13 +40,6 @@ struct Run {
   JobQueue jobs;
   explicit Run(Talk& talk_of_program) : talk(talk_of_program) {}
 };
-
-size_t start_threads(const Options& options, Talk& talk) {
-  const size_t asked = options.threads ? *options.threads : thread_count_default();
-  const size_t granted = set_thread_count(asked);
-  if (granted < asked) say(talk, fmt::format("the system grants {} of {} threads", granted, asked));
-  return granted;
-}
 
 View make_view(const Camera& camera) {
   return {.eye = Vec3(camera.eye),
