@@ -17,22 +17,14 @@ struct SlugExit {
   int code;
 };
 constexpr std::array kSlugExits = {
-    SlugExit{"expectation-missed", 1},
-    SlugExit{"usage", 2},
-    SlugExit{"cannot-open", 4},
-    SlugExit{"cannot-write", 4},
-    SlugExit{"include-not-found", 4},
-    SlugExit{"not-a-regular-file", 4},
-    SlugExit{"output-locked", 4},
-    SlugExit{"write-failed", 4},
-    SlugExit{"file-too-large", 5},
-    SlugExit{"image-too-large", 5},
-    SlugExit{"memory-limit", 5},
-    SlugExit{"out-of-memory", 5},
-    SlugExit{"time-limit", 5},
-    SlugExit{"too-many-includes", 5},
-    SlugExit{"too-many-patches", 5},
-    SlugExit{"too-many-polygons", 5},
+    SlugExit{"expectation-missed", 1}, SlugExit{"usage", 2},
+    SlugExit{"cannot-open", 4},        SlugExit{"cannot-write", 4},
+    SlugExit{"include-not-found", 4},  SlugExit{"not-a-regular-file", 4},
+    SlugExit{"output-locked", 4},      SlugExit{"write-failed", 4},
+    SlugExit{"file-too-large", 5},     SlugExit{"image-too-large", 5},
+    SlugExit{"memory-limit", 5},       SlugExit{"out-of-memory", 5},
+    SlugExit{"time-limit", 5},         SlugExit{"too-many-includes", 5},
+    SlugExit{"too-many-patches", 5},   SlugExit{"too-many-polygons", 5},
 };
 
 // Bytes of the UTF-8 character that starts here and its code point; length 0: not UTF-8.

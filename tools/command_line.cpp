@@ -44,10 +44,9 @@ void add_switch(CLI::App& app, const std::string& name, bool& value, const std::
 
 // Limits of what a scene may cost, a flag a row of their table.
 void add_limit_flags(CLI::App& app, Options& options) {
-  add_value(app, "--max-memory", "BYTES", "refuse a run that may need more, such as 2G; what is available unless given",
-            [&](const std::string& text) {
-              options.max_memory = parse_bytes("--max-memory", text);
-            });
+  add_value(app, "--max-memory", "BYTES",
+            "refuse a run that may need more, such as 2G; what is available unless given",
+            [&](const std::string& text) { options.max_memory = parse_bytes("--max-memory", text); });
   add_value(app, "--max-seconds", "S",
             fmt::format("refuse a run that will likely take longer; {} unless given", options.max_seconds),
             [&](const std::string& text) {
@@ -86,6 +85,17 @@ void add_talk_flags(CLI::App& app, Options& options) {
              [&](size_t choice) { options.color = static_cast<ColorChoice>(choice); });
 }
 
+// Flags of all that casts rays.
+void add_run_flags(CLI::App& app, Options& options) {
+  add_value(app, "--threads", "N", "threads; all cores unless given", [&](const std::string& text) {
+    options.threads = static_cast<uint32_t>(parse_count("--threads", text, 1, kThreadsMax));
+  });
+  add_value(app, "--seed", "N", "another seed, other samples", [&](const std::string& text) {
+    options.seed = parse_count("--seed", text, 0, 4'000'000'000'000'000'000);
+  });
+  add_limit_flags(app, options);
+}
+
 // Flags that change what a solve takes.
 void add_solver_flags(CLI::App& app, Options& options) {
   add_value(app, "--passes", "N", "at most so many passes (bounces of light)", [&](const std::string& text) {
@@ -100,12 +110,6 @@ void add_solver_flags(CLI::App& app, Options& options) {
             [&](const std::string& text) {
               options.quality = parse_number("--quality", text, kQualityMin, kQualityMax);
             });
-  add_value(app, "--threads", "N", "threads; all cores unless given", [&](const std::string& text) {
-    options.threads = static_cast<uint32_t>(parse_count("--threads", text, 1, kThreadsMax));
-  });
-  add_value(app, "--seed", "N", "another seed, other samples", [&](const std::string& text) {
-    options.seed = parse_count("--seed", text, 0, 4'000'000'000'000'000'000);
-  });
   add_value(app, "--max-patches", "N", "the budget of patches", [&](const std::string& text) {
     options.max_patches = parse_count("--max-patches", text, 1, 1'000'000'000);
     options.load.limits.starting_patches = *options.max_patches;
@@ -113,7 +117,7 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_choice(app, "--form-factors", {"cached", "recompute"},
              "recompute: less memory, more time, the same result; as memory allows unless given",
              [&](size_t choice) { options.keep_rows = choice == 0; });
-  add_limit_flags(app, options);
+  add_run_flags(app, options);
 }
 
 // Flags that change which pictures there are.
@@ -179,6 +183,16 @@ void add_show_flags(CLI::App& app, Options& options) {
   add_switch(app, "--effective", options.effective, "the merged settings with their origins");
 }
 
+void add_factors_flags(CLI::App& app, Options& options) {
+  add_scene(app, options);
+  add_run_flags(app, options);
+  add_choice(app, "--format", {"csv", "json"}, "csv unless given",
+             [&](size_t choice) { options.factors.format = static_cast<FactorFormat>(choice); });
+  add_value(app, "--error", "E", "no estimated error of a factor is larger; 0.001 unless given",
+            [&](const std::string& text) { options.factors.error = parse_number("--error", text, 1e-6, 1); });
+  add_talk_flags(app, options);
+}
+
 void add_schema_flags(CLI::App& app, Options& options) { add_talk_flags(app, options); }
 
 void add_completion_flags(CLI::App& app, Options& options) {
@@ -188,8 +202,8 @@ void add_completion_flags(CLI::App& app, Options& options) {
 void add_bench_flags(CLI::App& app, Options& options) {
   BenchOptions& bench = options.bench;
   app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
-  add_value(app, "--only", "kernels|scenes|loading|growth|threads,...", "sections; the first two unless given",
-            [&](const std::string& text) {
+  add_value(app, "--only", "kernels|scenes|loading|growth|threads,...",
+            "sections; the first two unless given", [&](const std::string& text) {
               bench.sections = split_list(text);
               for (const std::string& section : bench.sections)
                 parse_choice("--only", section, {"kernels", "scenes", "loading", "growth", "threads"});
@@ -227,6 +241,8 @@ constexpr VerbRow kVerbs[] = {
      add_check_flags},
     {"verify", Verb::kVerify, "does the light come out as the scene expects?", kVerifyHelp, add_verify_flags},
     {"show", Verb::kShow, "which settings hold, and where each comes from", kShowHelp, add_show_flags},
+    {"factors", Verb::kFactors, "form factors between the polygons of a scene", kFactorsHelp,
+     add_factors_flags},
     {"bench", Verb::kBench, "how fast is it here?", kBenchHelp, add_bench_flags},
     {"schema", Verb::kPrinted, "JSON Schema of the scene language, for editors", kSchemaHelp,
      add_schema_flags},

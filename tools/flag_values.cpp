@@ -4,6 +4,7 @@
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
 #include "exporters.h"
+#include "options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -12,6 +12,7 @@ Examples:
   patchlight check room.yaml                        is the scene right, and what would it take?
   patchlight verify room.yaml                       does the light come out as the scene expects?
   patchlight show room.yaml --effective             which settings hold, and where each comes from
+  patchlight factors room.yaml                      view factors between the polygons of a scene, as CSV
   patchlight render --help                          all flags of render
 )";
 
@@ -73,6 +74,19 @@ constexpr const char* kCompletionHelp =
 Examples:
   source <(patchlight completion bash)              bash: here and now; in ~/.bashrc: always
   patchlight completion zsh > ~/.zfunc/_patchlight  zsh: in a folder of $fpath, before compinit
+)";
+
+constexpr const char* kFactorsHelp =
+    R"(Prints the form factors (view factors) between the polygons of a scene: a row a polygon, with its area, the
+factors to all polygons in the order of the scene, and their sum, which is not adjusted.
+
+Examples:
+  patchlight factors duct.yaml > duct.csv
+  patchlight factors duct.yaml --format json        with an estimated error beside every factor
+  patchlight factors duct.yaml --error 1e-4         more rays where something stands between polygons
+  patchlight factors duct.yaml -D gap=0.02          a variable of the scene
+
+Factors between polygons with nothing in between are exact (1e-6) and need no rays.
 )";
 
 constexpr const char* kBenchHelp =

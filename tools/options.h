@@ -13,7 +13,7 @@
 namespace patchlight {
 
 // kPrinted: help, versions, a schema ...: `text` holds what is to be printed.
-enum class Verb { kRender, kCheck, kVerify, kShow, kBench, kPrinted };
+enum class Verb { kRender, kCheck, kVerify, kShow, kFactors, kBench, kPrinted };
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
@@ -28,6 +28,13 @@ struct BenchOptions {
   size_t threads = 0;                   // 0: all cores
   uint64_t max_patches = ~uint64_t{0};  // no measured mesh has more
   uint64_t max_memory = ~uint64_t{0};   // bytes: growth stops before
+};
+
+enum class FactorFormat { kCsv, kJson };
+
+struct FactorOptions {
+  FactorFormat format = FactorFormat::kCsv;
+  double error = 1e-3;  // of each factor, three standard errors
 };
 
 struct Options {
@@ -61,6 +68,7 @@ struct Options {
   bool quiet = false;
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;
+  FactorOptions factors;
   BenchOptions bench;
 };
 

@@ -4,6 +4,7 @@
 #include "bench.h"
 #include "check.h"
 #include "command_line.h"
+#include "factors.h"
 #include "files.h"
 #include "json.h"
 #include "render.h"
@@ -42,6 +43,8 @@ int run_verb(const Options& options, Talk& talk) {
       return verify(options, talk);
     case Verb::kShow:
       return show(options, talk);
+    case Verb::kFactors:
+      return factors(options, talk);
     case Verb::kBench:
       return bench(options, talk);
     case Verb::kPrinted:

@@ -136,7 +136,7 @@ TEST_CASE("bytes that are no text, or text that does not look like what it is, a
        "patchlight: 1\nmaterials:\n  \"\\x1b[31m\": {}\nobjects:\n  - {quad: {size: [1, 1]}, material: "
        "nope}\n"},
       {"groups 200 deep", "too-deep", "7:293",
-       "nested deeper than the limit of 64; --limit nesting=N raises it",
+       "nested deeper than the limit of 64 levels (--max-nesting raises it)",
        kHead + kLight + "  - " + repeat_text("{group: [", 200) + "{quad: {size: [1,1]}, material: white}" +
            repeat_text("]}", 200) + "\n"},
   };

@@ -1,18 +1,26 @@
 set(ENGINE_TEST_SOURCES
   engine/cell.cpp
+  engine/clip.cpp
+  engine/contour.cpp
   engine/direct.cpp
   engine/film.cpp
   engine/forecast.cpp
   engine/gather.cpp
   engine/lambert.cpp
   engine/ledger.cpp
+  engine/pair_rays.cpp
+  engine/pair_split.cpp
   engine/parallel.cpp
+  engine/parts.cpp
   engine/patches.cpp
+  engine/polygon_factors.cpp
   engine/quadtree.cpp
   engine/receivers.cpp
   engine/ray_tape.cpp
   engine/refine.cpp
   engine/rows.cpp
+  engine/shaft.cpp
+  engine/sobol.cpp
   engine/solve.cpp
   engine/tracer.cpp
   engine/vertices.cpp

@@ -55,6 +55,29 @@ TEST_CASE("render with all of its flags") {
   CHECK((options.color == ColorChoice::kNever));
 }
 
+TEST_CASE("factors with all of its flags, and with none") {
+  const Options options =
+      parse_command_line({"factors", "room.yaml", "--format", "json", "--error", "1e-4", "--max-memory",
+                          "1000000", "--threads", "2", "--seed", "5", "-D", "w=8", "--quiet"});
+  CHECK(options.verb == Verb::kFactors);
+  CHECK(options.scene == "room.yaml");
+  CHECK((options.factors.format == FactorFormat::kJson));
+  CHECK(options.factors.error == 1e-4);
+  CHECK(options.max_memory == 1000000u);
+  CHECK(options.threads == 2u);
+  CHECK(options.seed == 5u);
+  CHECK(options.load.definitions == std::vector<std::string>{"w=8"});
+  CHECK(options.quiet);
+  const Options plain = parse_command_line({"factors", "room.yaml"});
+  CHECK((plain.factors.format == FactorFormat::kCsv));
+  CHECK(plain.factors.error == 1e-3);
+  CHECK(find_mistake({"factors"}) != "");
+  CHECK(has(find_mistake({"factors", "a.yaml", "--error", "nan"}), "--error"));
+  CHECK(has(find_mistake({"factors", "a.yaml", "--format", "yaml"}), "csv"));
+  CHECK(has(find_mistake({"factors", "a.yaml", "--rays", "5"}), "factors has no flag '--rays'"));
+  CHECK(has(find_mistake({"factor", "a.yaml"}), "did you mean 'factors'?"));
+}
+
 TEST_CASE("what is not asked for is left to the scene") {
   const Options options = parse_command_line({"render", "-"});
   CHECK(options.scene == "-");
