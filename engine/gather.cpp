@@ -326,8 +326,9 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 
 void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable& aims) {
   const FaceTable& faces = rows.faces;
-  std::vector<uint8_t> emits(faces.size());
-  for (size_t f = 0; f < faces.size(); ++f) emits[f] = largest(faces.emission[f]) > 0;
+  // Few patches emit: a byte a patch stays in the cache.
+  std::vector<uint8_t> emits(rows.patches.size());
+  for (size_t p = 0; p < emits.size(); ++p) emits[p] = largest(faces.emission[rows.patches.face[p]]) > 0;
   for_rows(rows.receivers.size(), 64, [&](size_t begin, size_t end) {
     RowScratch scratch;
     for (size_t row = begin; row < end; ++row) {
@@ -336,9 +337,9 @@ void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable
       const uint32_t own = rows.receivers.patch[rows.receivers.first[row]];
       const uint32_t polygon = faces.polygon[rows.patches.face[own]];
       for (const uint32_t patch : find_row(scratch, rows, row).patch) {
-        if (patch >= kHitBuried) continue;
+        if (patch >= kHitBuried || !emits[patch]) continue;
         const uint32_t face = rows.patches.face[patch];
-        if (emits[face] && !is_aimed(aims, polygon, face)) sum += faces.emission[face];
+        if (!is_aimed(aims, polygon, face)) sum += faces.emission[face];
       }
       const uint32_t valid = rows.hits.valid_count(row);
       spread(irradiance, rows.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));

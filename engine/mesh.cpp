@@ -19,7 +19,7 @@ constexpr float kLargeElement = 6;       // least sizes
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
 constexpr uint32_t kCoarsePassesMax = 64;
-constexpr uint32_t kPatchRoundsMax = 4;
+constexpr uint32_t kPatchRoundsMax = 3;
 
 // Elements: the patches, split on until they are as small as the settings want them to start.
 PatchTable make_elements(const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
