@@ -85,7 +85,7 @@ struct Place {
   CellFrame cell;  // of its first patch
   Vec3 centre, normal;
   uint32_t rays;   // of its row
-  uint32_t aimed;  // rays at sources; as many more find out which of these its block sees
+  uint32_t aimed;  // rays at sources; half as many more find out which of these its block sees
   float share_valid;
 };
 
@@ -222,7 +222,9 @@ uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& 
   const uint64_t key = make_place_key(place, b, kRowAimedProbe);
   uint64_t ray_count = 0;
   AimedPacket packet;
-  for (uint32_t index = 0; index < place.aimed; index += kPacketSize) {
+  // Neighbours take turns: each every other packet, which hold different sources.
+  const uint32_t first = place.aimed > kPacketSize ? place.row % 2 * kPacketSize : 0;
+  for (uint32_t index = first; index < place.aimed; index += 2 * kPacketSize) {
     make_aimed_packet(packet, place, shares, b, key, index);
     const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
