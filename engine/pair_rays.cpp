@@ -174,7 +174,7 @@ void cast_points(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer
       active |= (weight[k] > 0 ? 1u : 0u) << k;
     }
     if (active == 0) continue;
-    const uint32_t blocked = find_blocked(tracer, rays, active);
+    const uint32_t blocked = find_blocked(tracer, rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       if (!(active >> k & 1u)) continue;
       const uint32_t block = scratch.block[first + k];
@@ -207,8 +207,8 @@ void add_triangles(RayPairTable& pairs, std::span<const DVec3> corners) {
 }  // namespace
 
 void clear_pairs(RayPairTable& pairs) {
-  pairs.exchange_until.clear(), pairs.exchange_inverse.clear(), pairs.normal_from.clear(),
-      pairs.normal_to.clear();
+  pairs.exchange_until.clear(), pairs.exchange_inverse.clear();
+  pairs.normal_from.clear(), pairs.normal_to.clear();
   pairs.triangle_first.assign(1, 0), pairs.triangle_to.clear(), pairs.far.clear();
   pairs.triangle.clear(), pairs.area_until.clear();
 }

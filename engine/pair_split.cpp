@@ -39,18 +39,14 @@ double find_exchange(Job& job, const SubPair& pair) {
   return find_exchange_area(job.outline_a, job.outline_b, job.tolerance, job.scratch);
 }
 
-// How evenly a plane cuts a polygon, 0 to 0.5 of its depth; which side it is on where it is not cut.
-struct Cut {
-  double share;
-  int side;
-};
-Cut find_cut(std::span<const DVec3> corners, const HalfSpace& plane) {
+// How evenly a plane cuts a polygon: 0.5 through the middle of its depth, 0 or less beside it.
+double find_cut(std::span<const DVec3> corners, const HalfSpace& plane) {
   double low = 1e300, high = -1e300;
   for (const DVec3& p : corners) {
     const double height = height_above(plane, p);
     low = std::min(low, height), high = std::max(high, height);
   }
-  return {std::min(-low, high) / std::max(high - low, 1e-300), high > -low ? 1 : -1};
+  return std::min(-low, high) / std::max(high - low, 1e-300);
 }
 
 // Of the faces that were found in a shaft the one whose plane leaves one end whole and cuts the other most
@@ -62,10 +58,10 @@ void pick_blocker(Job& job, SubPair& pair) {
     const uint32_t face = job.blockers.face[k];
     const DVec3 normal(job.faces.normal[face]);
     const HalfSpace plane{normal, dot(normal, DVec3(job.faces.corners[face][0]))};
-    const Cut a = find_cut(corners_a(job.split, pair), plane),
-              b = find_cut(corners_b(job.split, pair), plane);
-    if (a.share < kUncut && b.share > best) best = b.share, pair.blocker = face, pair.cuts_a = 0;
-    if (b.share < kUncut && a.share > best) best = a.share, pair.blocker = face, pair.cuts_a = 1;
+    const double cut_a = find_cut(corners_a(job.split, pair), plane);
+    const double cut_b = find_cut(corners_b(job.split, pair), plane);
+    if (cut_a < kUncut && cut_b > best) best = cut_b, pair.blocker = face, pair.cuts_a = 0;
+    if (cut_b < kUncut && cut_a > best) best = cut_a, pair.blocker = face, pair.cuts_a = 1;
   }
 }
 
@@ -93,6 +89,22 @@ void sort_in(Job& job, const SubPair& pair, Sight sight) {
   job.split.mixed += pair.exchange;
   job.split.sub_pairs.push_back(pair);
   std::push_heap(job.split.sub_pairs.begin(), job.split.sub_pairs.end(), has_less);
+}
+
+// The pair as it is, where each of the two is one piece. False, with nothing written, where it is not.
+bool add_whole(Job& job, double exchange) {
+  const PartTable& parts = job.parts;
+  const uint32_t a = parts.piece_first[job.part_a], b = parts.piece_first[job.part_b];
+  if (parts.piece_first[job.part_a + 1] - a != 1 || parts.piece_first[job.part_b + 1] - b != 1) return false;
+  auto& corners = job.split.corners;
+  SubPair pair{exchange, 0, 0, 0, 0, kNone, 0};
+  pair.count_a =
+      static_cast<uint32_t>(clip_polygon(corners, piece_corners(parts, a), parts.front[job.part_b]));
+  pair.first_b = pair.count_a;
+  pair.count_b =
+      static_cast<uint32_t>(clip_polygon(corners, piece_corners(parts, b), parts.front[job.part_a]));
+  if (pair.count_a >= 3 && pair.count_b >= 3) sort_in(job, pair, Sight::kMixed);
+  return true;
 }
 
 void add_pieces(Job& job) {
@@ -181,10 +193,12 @@ void split_largest(Job& job) {
 }  // namespace
 
 void split_pair(SplitPair& split, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
-                uint32_t part_a, uint32_t part_b, double error, double tolerance, ContourScratch& scratch) {
+                uint32_t part_a, uint32_t part_b, double exchange, double error, double tolerance,
+                ContourScratch& scratch) {
   split.clear = split.mixed = 0;
   split.sub_pairs.clear(), split.corners.clear();
   Job job{split, tree, faces, parts, part_a, part_b, tolerance, scratch, {}, {}, {}, {}, {}, {}};
+  if (forecast_samples(exchange, error) < kSamplesPerSplit && add_whole(job, exchange)) return;
   add_pieces(job);
   for (size_t splits = 0; splits < kSplitsMax && !split.sub_pairs.empty(); ++splits) {
     const double samples = forecast_samples(split.mixed, error);

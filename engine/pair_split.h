@@ -24,13 +24,15 @@ struct SplitPair {
 
 // Samples that rays would take to find the exchange of parts in doubt with this standard error, about; both
 // in lengths squared. Measured with screens, boxes and grilles.
-inline double forecast_samples(double mixed, double error) { return 1.0 * std::pow(mixed / error, 1.6); }
+inline double forecast_samples(double mixed, double error) { return std::pow(mixed / error, 1.6); }
 
 // Parts are split, those with the largest exchange first, for as long as this is cheaper than the rays that
-// it saves; `error`: the standard error that rays will have to reach, lengths squared. Each integral errs by
-// `tolerance`, lengths squared. Memory of `split` is reused.
+// it saves; `exchange`: that of the pair with nothing between, `error`: the standard error that rays will
+// have to reach, both in lengths squared. Each integral errs by `tolerance`, lengths squared. Memory of
+// `split` is reused.
 void split_pair(SplitPair& split, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
-                uint32_t part_a, uint32_t part_b, double error, double tolerance, ContourScratch& scratch);
+                uint32_t part_a, uint32_t part_b, double exchange, double error, double tolerance,
+                ContourScratch& scratch);
 
 inline std::span<const DVec3> corners_a(const SplitPair& split, const SubPair& pair) {
   return std::span(split.corners).subspan(pair.first_a, pair.count_a);

@@ -46,7 +46,7 @@ Corners number_corners(const FaceTable& faces, uint32_t first, uint32_t last) {
 
 uint64_t edge_key(uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; }
 
-// Twice the sine of the turn at b, to the left, times nothing: of unit directions.
+// The sine of the turn at b; above 0 to the left.
 double find_turn(DVec3 a, DVec3 b, DVec3 c, DVec3 normal) {
   const DVec3 in = b - a, out = c - b;
   const double lengths = std::sqrt(dot(in, in) * dot(out, out));

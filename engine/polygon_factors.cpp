@@ -167,7 +167,7 @@ Answer find_by_rays(TaskScratch& scratch, const Task& task, const FactorScene& s
   const double wanted = task.share / task.weight * task.area_least * settings.error / kErrorWidth *
                         std::min(1.0, kRowShare * std::sqrt(factor));
   SplitPair& split = scratch.split;
-  split_pair(split, scene.tree, faces, parts, task.part_a, task.part_b, wanted,
+  split_pair(split, scene.tree, faces, parts, task.part_a, task.part_b, task.exchange, wanted,
              kIntegralError / 10 * task.area_least, scratch.contour);
   Answer answer;
   answer.exchange = split.clear;

@@ -12,8 +12,7 @@ namespace {
 constexpr size_t kFacesPerLeaf = 4;
 // Half-spaces of a shaft; more are left out, which makes it wider.
 constexpr size_t kSidesMax = 40;
-// Parts that are asked whether they hide all; a shaft with so many in it is seldom hidden by one.
-constexpr uint32_t kHidersMax = 32;
+// Faces that are still looked at once there is doubt, for one that hides all.
 constexpr uint32_t kTriedMax = 16;
 // The slack of a shaft is at most this share of its narrower end.
 constexpr double kSlackOfEnd = 0.005;
@@ -197,7 +196,7 @@ Sight find_sight(Blockers& blockers, const BoxTree& tree, const FaceTable& faces
   // The other sides are seldom needed: most shafts have nothing near them.
   bool has_all_sides = false;
   Sight sight = Sight::kClear;
-  uint32_t part_last = kNone, asked = 0, tried = 0;
+  uint32_t part_last = kNone, tried = 0;
   std::array<uint32_t, 64> stack;
   size_t depth = 0;
   stack[depth++] = 0;
@@ -226,7 +225,6 @@ Sight find_sight(Blockers& blockers, const BoxTree& tree, const FaceTable& faces
       if (part == part_last || !parts.convex[part]) continue;
       part_last = part;
       if (hides(parts, part, a, b, slack)) return Sight::kHidden;
-      if (++asked == kHidersMax) return sight;
     }
   }
   return sight;

@@ -133,7 +133,7 @@ void format_factors_csv(const PutText& put, const Scene& scene, const FactorTabl
   for (const std::string& id : scene.polygons.id) writer.add(",{}", quote_csv(id));
   writer.add(",row_sum,row_error\n");
   for (uint32_t i = 0; i < n; ++i) {
-    writer.add("{},{:.7g}", quote_csv(scene.polygons.id[i]), scene_area(scene, table, i));
+    writer.add("{},{:.9g}", quote_csv(scene.polygons.id[i]), scene_area(scene, table, i));
     for (uint32_t j = 0; j < n; ++j) writer.add(",{:.9g}", find_factor(table, i, j));
     writer.add(",{:.9g},{:.2g}\n", summary.row_sums[i], summary.row_errors[i]);
   }
@@ -151,7 +151,7 @@ void format_factors_json(const PutText& put, const Scene& scene, const FactorTab
   writer.add("{{\n  \"scene\": {},\n  \"units\": {},\n  \"polygons\": [", quote(scene.file),
              quote(scene.units));
   for (uint32_t i = 0; i < n; ++i)
-    writer.add("{}\n    {{\"id\": {}, \"area\": {:.7g}}}", i == 0 ? "" : ",", name(i),
+    writer.add("{}\n    {{\"id\": {}, \"area\": {:.9g}}}", i == 0 ? "" : ",", name(i),
                scene_area(scene, table, i));
   writer.add("\n  ],\n  \"form_factors\": ");
   add_matrix(writer, "{:.9g}", n, [&](uint32_t i, uint32_t j) { return find_factor(table, i, j); });
