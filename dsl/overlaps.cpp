@@ -4,15 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace patchlight {
 namespace {
 
-constexpr double kOneAngle = 1e-6;       // of normals: 1 - cosine
-constexpr double kOnePlane = 2e-6;       // lengths: about a ray's offset
-constexpr double kOverlapMin = 1e-5;     // share of the smaller polygon's area
-constexpr size_t kPairsMax = 5'000'000;  // of polygons that are compared
+constexpr double kOneAngle = 1e-6;        // of normals: 1 - cosine
+constexpr double kOnePlane = 2e-6;        // lengths: about a ray's offset
+constexpr double kOverlapMin = 1e-5;      // share of the smaller polygon's area
+constexpr size_t kPairsMax = 5'000'000;   // of polygons that are compared
+constexpr size_t kWorkMax = 200'000'000;  // pairs of their faces and corners: what is beyond is not searched
 
 // The polygons of a scene, two-sided ones with two rows, as far as they are searched.
 struct PlaneTable {
@@ -86,30 +88,53 @@ double area_of(const std::vector<DVec2>& points) {
   return twice / 2;
 }
 
-// Area that the faces of two polygons in one plane have in common, lengths squared.
-double overlap_area(const FaceTable& faces, const PolygonTable& polygons, uint32_t a, uint32_t b,
-                    DVec3 normal) {
+// A face on its plane, and the box around it.
+struct FlatFace {
+  std::array<DVec2, 4> corner;
+  size_t count;
+  DVec2 low, high;
+};
+
+std::vector<FlatFace> flatten_faces(const FaceTable& faces, uint32_t first, uint32_t last, DVec3 normal) {
   const DVec3 along =
       glm::normalize(glm::cross(std::abs(normal.x) < 0.5 ? DVec3(1, 0, 0) : DVec3(0, 1, 0), normal));
   const DVec3 across = glm::cross(normal, along);
-  const auto flat = [&](uint32_t f) {
-    std::vector<DVec2> points;
-    for (int k = 0; k < faces.corner_count[f]; ++k)
-      points.emplace_back(glm::dot(DVec3(faces.corners[f][k]), along),
-                          glm::dot(DVec3(faces.corners[f][k]), across));
-    return points;
-  };
-  double sum = 0;
-  for (uint32_t f = polygons.face_first[a]; f < polygons.face_first[a + 1]; ++f) {
-    const std::vector<DVec2> cutter = flat(f);
-    for (uint32_t g = polygons.face_first[b]; g < polygons.face_first[b + 1]; ++g) {
-      std::vector<DVec2> points = flat(g);
-      for (size_t k = 0; k < cutter.size() && !points.empty(); ++k)
-        clip(points, cutter[k], cutter[(k + 1) % cutter.size()]);
-      sum += std::max(0.0, area_of(points));
+  std::vector<FlatFace> flat;
+  flat.reserve(last - first);
+  for (uint32_t f = first; f < last; ++f) {
+    FlatFace face{{}, faces.corner_count[f], DVec2(1e300), DVec2(-1e300)};
+    for (size_t k = 0; k < face.count; ++k) {
+      const DVec3 corner(faces.corners[f][k]);
+      face.corner[k] = DVec2(glm::dot(corner, along), glm::dot(corner, across));
+      face.low = glm::min(face.low, face.corner[k]);
+      face.high = glm::max(face.high, face.corner[k]);
     }
+    flat.push_back(face);
   }
-  return sum;
+  return flat;
+}
+
+// Do the faces of two polygons in one plane have more than that area in common (lengths squared)?
+bool share_area(const FaceTable& faces, const PolygonTable& polygons, uint32_t a, uint32_t b, DVec3 normal,
+                double least) {
+  const auto flat = [&](uint32_t p) {
+    return flatten_faces(faces, polygons.face_first[p], polygons.face_first[p + 1], normal);
+  };
+  const std::vector<FlatFace> cutters = flat(a), others = flat(b);
+  std::vector<DVec2> points;
+  double sum = 0;
+  for (const FlatFace& cutter : cutters)
+    for (const FlatFace& other : others) {
+      if (other.low.x > cutter.high.x || other.high.x < cutter.low.x || other.low.y > cutter.high.y ||
+          other.high.y < cutter.low.y)
+        continue;
+      points.assign(other.corner.begin(), other.corner.begin() + static_cast<ptrdiff_t>(other.count));
+      for (size_t k = 0; k < cutter.count && !points.empty(); ++k)
+        clip(points, cutter.corner[k], cutter.corner[(k + 1) % cutter.count]);
+      sum += std::max(0.0, area_of(points));
+      if (sum > least) return true;
+    }
+  return false;
 }
 
 // The same corners, in any order.
@@ -125,9 +150,10 @@ bool same_corners(const OutlineTable& outlines, uint32_t p, uint32_t q) {
          });
 }
 
-// Do two polygons lie in one plane, face the same way and overlap?
+// Do two polygons lie in one plane, face the same way and overlap? `work` counts the pairs of faces and
+// corners that this took; false where it would take more than kWorkMax.
 bool is_overlap(const PlaneTable& planes, const OutlineTable& outlines, const Scene& scene, size_t i,
-                size_t j) {
+                size_t j, size_t& work) {
   if (glm::dot(planes.normal[i], planes.normal[j]) < 1 - kOneAngle) return false;
   for (int axis = 0; axis < 3; ++axis)
     if (planes.low[i][axis] > planes.high[j][axis] + kOnePlane ||
@@ -141,9 +167,19 @@ bool is_overlap(const PlaneTable& planes, const OutlineTable& outlines, const Sc
        f < polygons.face_first[planes.polygon[small] + 1]; ++f)
     for (const Vec3& corner : faces.corners[f])
       if (std::abs(glm::dot(DVec3(corner) - origin, planes.normal[large])) > kOnePlane) return false;
+  const auto face_count = [&](size_t k) -> size_t {
+    return polygons.face_first[planes.polygon[k] + 1] - polygons.face_first[planes.polygon[k]];
+  };
+  const auto corner_count = [&](size_t k) -> size_t {
+    const uint32_t ring = outlines.polygon_first[planes.outline[k]];
+    return outlines.ring_first[ring + 1] - outlines.ring_first[ring];
+  };
+  const size_t needed = face_count(i) * face_count(j) + corner_count(i) * corner_count(j);
+  if (needed > kWorkMax - work) return false;
+  work += needed;
   return !same_corners(outlines, planes.outline[i], planes.outline[j]) &&
-         overlap_area(faces, polygons, planes.polygon[i], planes.polygon[j], planes.normal[large]) >
-             kOverlapMin * planes.area[small];
+         share_area(faces, polygons, planes.polygon[i], planes.polygon[j], planes.normal[large],
+                    kOverlapMin * planes.area[small]);
 }
 
 }  // namespace
@@ -157,12 +193,12 @@ void warn_of_overlaps(Messages& messages, const Tree& tree, const ObjectTable& o
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return planes.offset[a] != planes.offset[b] ? planes.offset[a] < planes.offset[b] : a < b;
   });
-  size_t pairs = 0;
+  size_t pairs = 0, work = 0;
   for (size_t i = 0; i < order.size(); ++i)
     for (size_t j = i + 1;
          j < order.size() && planes.offset[order[j]] - planes.offset[order[i]] < 4 * kOnePlane; ++j) {
       if (++pairs > kPairsMax) return;
-      if (!is_overlap(planes, outlines, scene, order[i], order[j])) continue;
+      if (!is_overlap(planes, outlines, scene, order[i], order[j], work)) continue;
       // The smaller one is the lamp or the rug; of equals the later.
       const auto [first, second] = std::minmax(order[i], order[j]);
       const size_t small = planes.area[first] < planes.area[second] ? first : second,

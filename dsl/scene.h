@@ -57,8 +57,8 @@ struct SettingTable {
 
 // A length of a setting as a float. 0 means automatic, so what is above 0 stays above 0, and finite.
 inline float to_patch_size(double length) {
-  using Limits = std::numeric_limits<float>;
-  return length > 0 ? static_cast<float>(std::clamp<double>(length, Limits::min(), Limits::max())) : 0.0f;
+  using Float = std::numeric_limits<float>;
+  return length > 0 ? static_cast<float>(std::clamp<double>(length, Float::min(), Float::max())) : 0.0f;
 }
 
 struct Scene {

@@ -123,6 +123,18 @@ TEST_CASE("a lamp in its ceiling's plane is told, one that hangs below or looks 
   CHECK(said(lamp("1", "1"), "coincident") == "");
 }
 
+TEST_CASE("discs in one plane are compared up to a number of pairs of their faces") {
+  const auto discs = [](int sides) {
+    const std::string disc = "disk: {radius: 1, sides: " + std::to_string(sides) + "}, material: white";
+    return said(
+        kHead + kLight + "  - {id: a, " + disc + "}\n  - {id: b, " + disc + ", translate: [1.5, 0, 0]}\n",
+        "coincident");
+  };
+  CHECK(discs(100) == "'b' lies in the plane of 'a' and overlaps it\n");
+  // Each has ten thousand corners and more faces: more pairs than are compared.
+  CHECK(discs(10'000) == "");
+}
+
 TEST_CASE("what stands on a floor, abuts or fills a hole does not overlap") {
   const auto with = [](const std::string& rest) {
     return said(room_scene({}, 6, kBulb + rest), "coincident");
