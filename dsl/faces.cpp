@@ -229,6 +229,13 @@ void check_start_patches(Messages& messages, const Tree& tree, const CutTable& t
   }
 }
 
+// A polygon so small for its distance from the scene's middle that single precision has no corners for it.
+void warn_of_lost(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p) {
+  add_warning(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]), "scale-ratio",
+              fmt::format("'{}' is left out: it is too small, so far from the others, for single precision",
+                          escape_text(outlines.id[p])));
+}
+
 }  // namespace
 
 void make_faces(Messages& messages, const Tree& tree, const MaterialTable& materials,
@@ -236,7 +243,10 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                 Scene& scene) {
   Sums sums;
   const CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
-  if (messages.error_count > 0 || sums.area == 0) return;
+  if (messages.error_count > 0 || outlines.size() == 0) return;
+  if (!(sums.area > 0))
+    return add_error(messages, place_of(tree, outlines.ring_node[0]), "zero-area",
+                     "all polygons are too small: their area is 0 even in double precision");
   check_start_patches(messages, tree, table, objects, outlines, start_patches_max);
   if (sums.largest > kSizeRatioMax * sums.smallest)
     add_warning(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[sums.smallest_polygon]]),
@@ -249,8 +259,16 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
   set_units(sums, scene);
   scene.polygons.face_first.assign(1, 0);
   std::vector<FaceRow> rows;
-  for (uint32_t p = 0; p < outlines.size(); ++p)
+  for (uint32_t p = 0; p < outlines.size(); ++p) {
+    const size_t faces_before = scene.faces.size();
     add_polygon_faces(table, materials, objects, outlines, tree, p, rows, scene);
+    if (scene.faces.size() == faces_before && table.face_first[p] < table.face_first[p + 1])
+      warn_of_lost(messages, tree, outlines, p);
+  }
+  if (scene.faces.size() == 0)
+    add_error(messages, place_of(tree, outlines.ring_node[0]), "coordinate-too-large",
+              "all polygons are lost in single precision: they are too small for their distances; move them "
+              "nearer to each other");
 }
 
 void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable& objects,

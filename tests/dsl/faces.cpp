@@ -157,5 +157,25 @@ TEST_CASE("a mm-sized polygon far from the origin keeps its shape") {
   CHECK(face_area(loaded.scene, 0) == doctest::Approx(1e-6).epsilon(1e-3));
 }
 
+TEST_CASE("polygons that single precision cannot hold are told, and never all of them left out") {
+  const std::string quads =
+      "  - {id: a, quad: {size: [1, 1]}, material: lamp}\n  - {id: b, quad: {size: [1, 1], center: ";
+  const Loaded apart = load(kHead + quads + "[1e9, 0, 0]}, material: white}\n");
+  REQUIRE(apart.errors.size() == 1);
+  CHECK(apart.errors[0].slug == "coordinate-too-large");
+  const Loaded beside = load(
+      kHead + quads + "[1e9, 0, 0]}, material: white}\n  - {quad: {size: [1e9, 1e9]}, material: white}\n");
+  REQUIRE(beside.errors.empty());
+  CHECK(beside.scene.faces.size() > 0);
+  size_t lost = 0;
+  for (const Diagnostic& warning : beside.warnings)
+    lost += warning.slug == "scale-ratio" && warning.message.find("is left out") != std::string::npos;
+  CHECK(lost == 1);  // a stays: it is at the origin
+  const Loaded tiny = load(
+      "patchlight: 1\nmaterials: {l: {emission: 1}}\n"
+      "objects: [{polygon: [[0,0,0],[1e-165,0,0],[0,0,1e-165]], material: l}]\n");
+  CHECK(!tiny.errors.empty());
+}
+
 }  // namespace
 }  // namespace patchlight::test
