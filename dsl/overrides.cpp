@@ -39,6 +39,17 @@ uint32_t find_key(const Tree& tree, uint32_t map, std::string_view path) {
   return best;
 }
 
+// Ids of a list's items.
+std::vector<std::string> list_ids(const Tree& tree, uint32_t list) {
+  std::vector<std::string> ids;
+  for (uint32_t item = tree.nodes[list].first; item != kNone; item = tree.nodes[item].next) {
+    if (tree.nodes[item].kind != NodeKind::kMap) continue;
+    const uint32_t id = find_key(tree, item, "id");
+    if (id != kNone) ids.emplace_back(text_of(tree, tree.nodes[id].next));
+  }
+  return ids;
+}
+
 // The item of a list that a path's first word names, by number or by id.
 uint32_t find_item(const Tree& tree, uint32_t list, std::string_view path, std::string_view& word) {
   word = path.substr(0, path.find('.'));
@@ -80,32 +91,42 @@ void add_value(Tree& tree, uint32_t map, std::string_view path, uint32_t value) 
   tree.nodes[map].count += 2;
 }
 
-// Puts `value` where `path` says. False when the path leads through something that has no parts.
-bool set_value(Tree& tree, uint32_t node, std::string_view path, uint32_t value) {
+// What is wrong with a path that names no item of a list.
+std::string no_item_text(const Tree& tree, uint32_t list, std::string_view word) {
+  const std::string near = did_you_mean(word, list_ids(tree, list));
+  return fmt::format("the list of {} there has no '{}': items go by number, from 0, or by id{}",
+                     tree.nodes[list].count, escape_text(word),
+                     near.empty() ? "" : fmt::format("; did you mean '{}'?", escape_text(near)));
+}
+
+// Puts `value` where `path` says. Returns what is wrong with the path, or an empty text.
+std::string set_value(Tree& tree, uint32_t node, std::string_view path, uint32_t value) {
   for (;;) {
     if (tree.nodes[node].kind == NodeKind::kMap) {
       const uint32_t key = find_key(tree, node, path);
       if (key == kNone) {
         add_value(tree, node, path, value);
-        return true;
+        return {};
       }
       const uint32_t old = tree.nodes[key].next;
       const size_t length = text_of(tree, key).size();
       if (path.size() == length) {
         tree.nodes[value].next = tree.nodes[old].next;
         tree.nodes[key].next = value;
-        return true;
+        return {};
       }
       path.remove_prefix(length + 1);
       node = old;
     } else if (tree.nodes[node].kind == NodeKind::kList) {
       std::string_view word;
       const uint32_t item = find_item(tree, node, path, word);
-      if (item == kNone || path.size() <= word.size()) return false;
+      if (item == kNone) return no_item_text(tree, node, word);
+      if (path.size() <= word.size()) return "the path ends at an item of a list; name one of its keys";
       path.remove_prefix(word.size() + 1);
       node = item;
     } else {
-      return false;
+      return fmt::format("'{}' is looked for in {}, which has no parts", escape_text(path),
+                         describe(tree, node));
     }
   }
 }
@@ -127,11 +148,12 @@ void apply_overrides(Messages& messages, const std::vector<std::string>& overrid
     const auto file = static_cast<uint32_t>(messages.files.size());
     messages.files.push_back({"--set " + escape_text(path), text.substr(equals + 1), true});
     if (!check_source(messages, file)) continue;
+    const size_t errors_before = messages.error_count;
     const uint32_t value = parse_tree(messages, file, tree);
-    if (value == kNone || !set_value(tree, root, path, value))
-      add_command_line_error(
-          messages, "usage",
-          fmt::format("--set {}: the scene has no such place, or the value is empty", escape_text(text)));
+    if (messages.error_count > errors_before) continue;
+    const std::string mistake = value == kNone ? "the value is missing" : set_value(tree, root, path, value);
+    if (!mistake.empty())
+      add_command_line_error(messages, "usage", fmt::format("--set {}: {}", escape_text(text), mistake));
   }
 }
 

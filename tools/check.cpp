@@ -27,7 +27,9 @@ int check(const Options& options, Talk& talk) {
       "memory            likely {}, at most {}; {} available\n"
       "time              likely {} on {} thread{}; an estimate by counts of rays\n",
       escape_text(scene.file, 200),
-      warnings.empty() ? "right" : fmt::format("right, with {} warnings", warnings.size()),
+      warnings.empty()
+          ? "right"
+          : fmt::format("right, with {} warning{}", warnings.size(), warnings.size() > 1 ? "s" : ""),
       scene.polygons.size(), scene.faces.size(), patches, scene.solver.patch_count_max,
       format_bytes(likely.bytes), format_bytes(forecast_run_bytes(scene, plan)),
       format_bytes(find_memory_available()), format_seconds(likely.seconds), plan.thread_count,

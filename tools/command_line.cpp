@@ -193,7 +193,7 @@ void add_factors_flags(CLI::App& app, Options& options) {
   add_talk_flags(app, options);
 }
 
-void add_schema_flags(CLI::App& app, Options& options) { add_talk_flags(app, options); }
+void add_no_flags(CLI::App&, Options&) {}
 
 void add_completion_flags(CLI::App& app, Options& options) {
   app.add_option("SHELL", options.shell, "bash or zsh")->type_name("")->required();
@@ -244,8 +244,7 @@ constexpr VerbRow kVerbs[] = {
     {"factors", Verb::kFactors, "form factors between the polygons of a scene", kFactorsHelp,
      add_factors_flags},
     {"bench", Verb::kBench, "how fast is it here?", kBenchHelp, add_bench_flags},
-    {"schema", Verb::kPrinted, "JSON Schema of the scene language, for editors", kSchemaHelp,
-     add_schema_flags},
+    {"schema", Verb::kPrinted, "JSON Schema of the scene language, for editors", kSchemaHelp, add_no_flags},
     {"completion", Verb::kPrinted, "completion for bash and zsh", kCompletionHelp, add_completion_flags},
 };
 
@@ -270,10 +269,13 @@ std::vector<std::string> flag_names(const CLI::App& app) {
   const auto flag = std::find_if(extras.begin(), extras.end(),
                                  [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
   if (flag == extras.end())
-    fail_usage(fmt::format("'{}' is one argument too many; expected one scene", escape_text(extras.front())));
+    fail_usage(fmt::format("'{}' is one argument too many; see patchlight {} --help",
+                           escape_text(extras.front()), verb.get_name()));
   const std::string word = flag->substr(0, flag->find('='));
+  // One letter is near to every other one.
   fail_usage(fmt::format("{} has no flag '{}'{}; see patchlight {} --help", verb.get_name(),
-                         escape_text(word), hint(word, flag_names(verb)), verb.get_name()));
+                         escape_text(word), word.size() > 2 ? hint(word, flag_names(verb)) : "",
+                         verb.get_name()));
 }
 
 // They are read more than once.
@@ -291,9 +293,11 @@ void check_verb(const std::vector<std::string>& arguments) {
   std::vector<std::string> known = verbs;
   known.insert(known.end(), {"--help", "-h", "--version"});
   if (std::find(known.begin(), known.end(), word) != known.end()) return;
-  const std::string near = hint(word, known);
-  fail_usage(fmt::format("no {} '{}'{}; see patchlight --help", word[0] == '-' ? "flag" : "verb",
-                         escape_text(word), near.empty() ? "; expected " + listed : near));
+  const bool is_flag = word.starts_with('-');
+  std::string near = word.size() > 2 ? hint(word, known) : "";
+  if (near.empty()) near = is_flag ? "; flags follow a verb: " + listed : "; expected " + listed;
+  fail_usage(
+      fmt::format("no {} '{}'{}; see patchlight --help", is_flag ? "flag" : "verb", escape_text(word), near));
 }
 
 // What shells complete: every verb with its flags, as CLI11 knows them.

@@ -46,6 +46,26 @@ TEST_CASE("a wrong value is told at the option, a wrong path as usage") {
     CHECK(path.errors[0].slug == "usage");
     CHECK(exit_code(path.errors[0]) == 2);
   }
+  const Loaded yaml = load_set(kBase, {"solver=[1"});
+  REQUIRE(yaml.errors.size() == 1);
+  CHECK(yaml.errors[0].slug == "yaml-syntax");
+}
+
+TEST_CASE("a path that leads nowhere is told what was probably meant") {
+  const auto said = [](const char* text) {
+    const Loaded loaded = load_set(kBase + "title: t\n", {text});
+    REQUIRE(!loaded.errors.empty());
+    return loaded.errors[0].message;
+  };
+  CHECK(said("objects.lihgt.material=white") ==
+        "--set objects.lihgt.material=white: the list of 2 there has no 'lihgt': items go by number, from 0, "
+        "or by id; "
+        "did you mean 'light'?");
+  CHECK(said("objects.7.material=white").find("has no '7'") != std::string::npos);
+  CHECK(said("objects.light=white").find("name one of its keys") != std::string::npos);
+  CHECK(said("title.x=1").find("'x' is looked for in the text 't', which has no parts") != std::string::npos);
+  CHECK(said("solver.pases=3") == "unknown key 'pases' in solver; did you mean 'passes'?");
+  CHECK(said("slover.passes=3") == "unknown key 'slover' in scene; did you mean 'solver'?");
 }
 
 }  // namespace
