@@ -157,6 +157,42 @@ TEST_CASE("a mm-sized polygon far from the origin keeps its shape") {
   CHECK(face_area(loaded.scene, 0) == doctest::Approx(1e-6).epsilon(1e-3));
 }
 
+TEST_CASE("outlines become faces without a file: ids, materials, twins and units") {
+  Messages messages;
+  messages.files.push_back({"t.yaml", ""});
+  Tree tree;
+  tree.file_first = {0};
+  tree.nodes.resize(1);
+  MaterialTable materials;
+  materials.reflectance = {DRgb(0.25), DRgb(0.5)};
+  materials.emission = {DRgb(0), DRgb(7)};
+  ObjectTable objects;
+  objects.node = objects.subdivide_node = {0, 0};
+  objects.two_sided = {0, 1};
+  objects.is_mesh = {0, 0};
+  objects.patch_size = {0, 2};
+  objects.subdivide = {4, 1};
+  OutlineTable outlines;
+  const DVec3 square[] = {DVec3(0, 0, 0), DVec3(0, 0, 8), DVec3(8, 0, 8), DVec3(8, 0, 0)};
+  const DVec3 triangle[] = {DVec3(0, 1, 0), DVec3(4, 1, 0), DVec3(0, 1, 4)};
+  add_polygon(outlines, 0, "square", 0, 0, square);
+  add_polygon(outlines, 1, "triangle", 1, 0, triangle);
+  Scene scene;
+  make_faces(messages, tree, materials, objects, outlines, 1000, scene);
+  REQUIRE(messages.errors.empty());
+  CHECK(scene.polygons.id == std::vector<std::string>{"square", "triangle", "triangle.back"});
+  REQUIRE(scene.faces.size() == 3);
+  CHECK(scene.units_per_length == 8);  // the root of 64 + 8, rounded down to a power of two
+  CHECK(scene.faces.reflectance[0] == Rgb(0.25f));
+  CHECK(scene.faces.emission[2] == Rgb(7));
+  CHECK(scene.faces.level_min[0] == 2);
+  CHECK(scene.faces.patch_size[1] == 0.25f);
+  CHECK(scene.faces.twin[1] == 2);
+  CHECK(scene.faces.normal[0] == Vec3(0, 1, 0));
+  CHECK(scene.faces.normal[1] == Vec3(0, -1, 0));
+  CHECK(face_area(scene, 0) == doctest::Approx(64));
+}
+
 TEST_CASE("polygons that single precision cannot hold are told, and never all of them left out") {
   const std::string quads =
       "  - {id: a, quad: {size: [1, 1]}, material: lamp}\n  - {id: b, quad: {size: [1, 1], center: ";

@@ -10,6 +10,7 @@ set(DSL_TEST_SOURCES
   dsl/limits.cpp
   dsl/mesh.cpp
   dsl/number.cpp
+  dsl/objects.cpp
   dsl/overrides.cpp
   dsl/prescan.cpp
   dsl/settings.cpp
@@ -20,6 +21,7 @@ set(DSL_TEST_SOURCES
   dsl/suspicious.cpp
   dsl/transform.cpp
   dsl/tree.cpp
+  dsl/values.cpp
   dsl/variables.cpp
   dsl/wrong_records.cpp
   dsl/wrong_scenes.cpp

@@ -87,6 +87,15 @@ TEST_CASE("wrong numbers, expressions and polygons are told at their place, with
   for (const Record& record : records) check_record(record);
 }
 
+TEST_CASE("the reference lists every slug of the records") {
+  const std::string text = testing::read_bytes(PATCHLIGHT_SOURCE_DIR "/dsl/README.md");
+  for (const char* name : {"syntax.txt", "keys.txt", "values.txt"})
+    for (const Record& record : read_records(name)) {
+      CAPTURE(record.slug);
+      CHECK(text.find("`" + record.slug + "`") != std::string::npos);
+    }
+}
+
 TEST_CASE("bytes that are no text, or text that does not look like what it is, are told at their place") {
   const std::string polygon = kHead + kLight + "  - {quad: {size: [1, 1], center: [";
   const std::vector<Record> records = {
