@@ -24,8 +24,8 @@ LoadOptions small_options() {
   LoadOptions options;
   options.limits.polygons = 500;
   options.limits.corners = 500;
-  options.limits.nodes = 20'000;
-  options.limits.alias_nodes = 5'000;
+  options.limits.values = 20'000;
+  options.limits.alias_values = 5'000;
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace {
 Options small_options() {
   Options options;
   options.load.limits.polygons = 20'000;
-  options.load.limits.nodes = 200'000;
+  options.load.limits.values = 200'000;
   return options;
 }
 
