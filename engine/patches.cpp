@@ -20,16 +20,6 @@ constexpr float kUnevenPower = 1e-5f;
 constexpr float kUnevenNoise = 3;          // standard errors
 constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's area: no smaller parts
 
-// Of the marked patches only the `count` of most weight: where the budget ends, they have the most to gain.
-void keep_heaviest(std::vector<uint8_t>& marks, uint64_t count, std::span<const float> weight) {
-  std::vector<uint32_t> rows;
-  for (uint32_t row = 0; row < marks.size(); ++row)
-    if (marks[row]) rows.push_back(row);
-  std::sort(rows.begin(), rows.end(),
-            [&](uint32_t a, uint32_t b) { return weight[a] != weight[b] ? weight[a] > weight[b] : a < b; });
-  for (size_t k = count; k < rows.size(); ++k) marks[rows[k]] = 0;
-}
-
 }  // namespace
 
 Probe probe_patch(const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t face,
@@ -81,8 +71,8 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
   const RowGrid grid = make_row_grid(kProbeRays);
   std::vector<uint8_t> fresh(patches.size(), 1);
   for (;;) {
-    std::vector<uint8_t> marks(patches.size(), 0);
-    std::atomic<uint64_t> probed{0}, marked{0};
+    std::vector<uint8_t> near(patches.size(), 0);  // to what they see, for their size, or at a solid
+    std::atomic<uint64_t> probed{0};
     for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
       for (size_t row = begin; row < end; ++row) {
         const uint32_t face = patches.face[row], cell = patches.cell[row], level = patches.level[row];
@@ -92,20 +82,22 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
                                         make_row_key(seed, face, cell, level, kRowProbe), grid);
         probed += probe.ray_count;
         const bool at_solid = probe.buried_count > 0 && probe.buried_count < probe.ray_count;
-        const bool near = edge * probe.inverse_distance_sum >
-                          kPatchEdgePerDistance * size_factor * static_cast<float>(probe.hit_count);
+        const bool is_near = edge * probe.inverse_distance_sum >
+                             kPatchEdgePerDistance * size_factor * static_cast<float>(probe.hit_count);
         const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
-        if (probe.buried_count == probe.ray_count || !(near || at_solid) || edge < 2 * edge_min) continue;
-        marks[row] = 1;
-        ++marked;
+        if (probe.buried_count == probe.ray_count || !(is_near || at_solid) || edge < 2 * edge_min) continue;
+        near[row] = 1;
       }
     });
     ray_count += probed;
-    if (!marked) return patches;
-    const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 3 : 0;
-    const bool last = marked > room;
-    if (last) keep_heaviest(marks, room, patches.area);
-    mark_for_balance(marks, patches, frames, links);
+    std::vector<uint32_t> wanted;
+    for (uint32_t row = 0; row < near.size(); ++row)
+      if (near[row]) wanted.push_back(row);
+    if (wanted.empty()) return patches;
+    // Where the budget ends, the largest have the most to gain.
+    const std::vector<uint8_t> marks =
+        mark_within_budget(wanted, patches.area, patches, frames, links, patch_count_max);
+    const bool last = std::any_of(wanted.begin(), wanted.end(), [&](uint32_t row) { return !marks[row]; });
     std::vector<uint32_t> parent;
     const PatchTable before = std::move(patches);
     patches = split_leaves(before, frames, marks, parent);
@@ -124,7 +116,6 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
   double power = 0;
   for (size_t row = 0; row < patches.size(); ++row) power += double{patches.area[row]} * light.total[row];
   const auto power_least = static_cast<float>(kUnevenPower * power) * area_factor * area_factor;
-  std::vector<uint8_t> marks(patches.size(), 0);
   std::vector<float> weight(patches.size(), 0);
   for_rows(patches.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
@@ -141,16 +132,12 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
           if (difference > share * std::max(light.total[row], light.total[other]))
             weight[row] = std::max(weight[row], difference * patches.area[row]);
         }
-      marks[row] = weight[row] > power_least;
     }
   });
-  // Splits for balance count towards the budget, too: some room is left to them.
-  const uint64_t room = patch_count_max > patches.size() ? (patch_count_max - patches.size()) / 4 : 0;
-  keep_heaviest(marks, room, weight);
-  std::vector<uint8_t> balanced = marks;
-  mark_for_balance(balanced, patches, frames, joints);
-  const auto split = static_cast<uint64_t>(std::count(balanced.begin(), balanced.end(), 1));
-  return patches.size() + 3 * split <= patch_count_max ? balanced : std::vector<uint8_t>(patches.size(), 0);
+  std::vector<uint32_t> candidates;
+  for (uint32_t row = 0; row < patches.size(); ++row)
+    if (weight[row] > power_least) candidates.push_back(row);
+  return mark_within_budget(std::move(candidates), weight, patches, frames, joints, patch_count_max);
 }
 
 }  // namespace patchlight

@@ -323,6 +323,25 @@ void mark_for_balance(std::vector<uint8_t>& marks, const PatchTable& leaves, con
   }
 }
 
+std::vector<uint8_t> mark_within_budget(std::vector<uint32_t> candidates, std::span<const float> weight,
+                                        const PatchTable& leaves, const FaceFrameTable& frames,
+                                        const FaceLinkTable& links, uint64_t leaf_count_max) {
+  const uint64_t room = leaf_count_max > leaves.size() ? (leaf_count_max - leaves.size()) / 3 : 0;
+  std::vector<uint8_t> marks;
+  const auto try_first = [&](size_t count) {
+    marks.assign(leaves.size(), 0);
+    for (size_t k = 0; k < count; ++k) marks[candidates[k]] = 1;
+    mark_for_balance(marks, leaves, frames, links);
+    return static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1)) <= room;
+  };
+  if (candidates.size() <= room && try_first(candidates.size())) return marks;
+  std::sort(candidates.begin(), candidates.end(),
+            [&](uint32_t a, uint32_t b) { return weight[a] != weight[b] ? weight[a] > weight[b] : a < b; });
+  size_t take = std::min<size_t>(candidates.size(), room);
+  while (!try_first(take)) take -= std::max<size_t>(take / 8, 1);  // nothing at all fits always
+  return marks;
+}
+
 PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames,
                         std::span<const uint8_t> marks, std::vector<uint32_t>& parent) {
   assert(marks.size() == leaves.size());

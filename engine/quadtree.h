@@ -77,6 +77,13 @@ uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& f
 void mark_for_balance(std::vector<uint8_t>& marks, const PatchTable& leaves, const FaceFrameTable& frames,
                       const FaceLinkTable& links);
 
+// Of the leaves `candidates` those that a budget has room for, of most weight (a row a leaf) first, and what
+// balance asks for with them: that counts towards the budget, too, and where it takes too much, fewer are
+// marked. Returns a row a leaf; all 0 if nothing fits.
+std::vector<uint8_t> mark_within_budget(std::vector<uint32_t> candidates, std::span<const float> weight,
+                                        const PatchTable& leaves, const FaceFrameTable& frames,
+                                        const FaceLinkTable& links, uint64_t leaf_count_max);
+
 // Splits the marked leaves into four; the children inherit all columns (same W/m2, so the power is
 // unchanged), a quarter each of the area as their shapes have it. parent[row of the result] = row before.
 PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames,

@@ -31,7 +31,8 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
                                     const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
                                     float patch_size_min, uint64_t patch_count_max) {
   const PatchTable& elements = input.elements;
-  std::vector<float> excess(elements.size(), 0);  // the largest difference that each element has a part in
+  // The largest difference that each element has a part in; in the end, times its area.
+  std::vector<float> excess(elements.size(), 0);
   for_rows(input.fresh.size(), 512, [&](size_t begin, size_t end) {
     // The same pair may be met from both sides: the maximum does not depend on the order.
     const auto raise = [&](uint32_t row, float value) {
@@ -56,24 +57,11 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
     if (excess[row] <= 0 || elements.level[row] >= kLevelMax - 1) continue;
     const float edge =
         longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
-    if (edge >= patch_size_min) candidates.push_back(row);
+    if (edge < patch_size_min) continue;
+    candidates.push_back(row);
+    excess[row] *= elements.area[row];
   }
-  const uint64_t room = patch_count_max > elements.size() ? (patch_count_max - elements.size()) / 3 : 0;
-  if (candidates.size() > room) {
-    std::sort(candidates.begin(), candidates.end(), [&](uint32_t a, uint32_t b) {
-      const float wa = excess[a] * elements.area[a], wb = excess[b] * elements.area[b];
-      return wa != wb ? wa > wb : a < b;
-    });
-  }
-  // Splits for balance count towards the budget, too: take fewer until all fit.
-  for (size_t take = std::min<size_t>(candidates.size(), room); take > 0;
-       take -= std::max<size_t>(take / 8, 1)) {
-    std::vector<uint8_t> marks(elements.size(), 0);
-    for (size_t k = 0; k < take; ++k) marks[candidates[k]] = 1;
-    mark_for_balance(marks, elements, frames, joints);
-    if (static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1)) <= room) return marks;
-  }
-  return std::vector<uint8_t>(elements.size(), 0);
+  return mark_within_budget(std::move(candidates), excess, elements, frames, joints, patch_count_max);
 }
 
 }  // namespace patchlight

@@ -69,6 +69,18 @@ TEST_CASE("patches: finer in corners, balanced, within the budget") {
   }
 }
 
+TEST_CASE("patches: no budget is passed for balance") {
+  FaceTable faces = make_room();
+  add_box_outward(faces, {0.1f, 0, 0.1f}, {0.15f, 0.1f, 0.2f}, make_surface(0, 0.5f));
+  const FaceFrameTable frames = make_face_frames(faces);
+  const FaceLinkTable links = make_face_links(faces);
+  const Tracer tracer = make_tracer(faces);
+  for (uint64_t budget = faces.size(); budget < 4000; budget += 97) {
+    uint64_t ray_count = 0;
+    CHECK(make_patches(faces, frames, links, tracer, budget, 1, 1, ray_count).size() <= budget);
+  }
+}
+
 TEST_CASE("patches: a size factor of a half makes them about four times as many") {
   const FaceTable faces = make_room();
   const FaceFrameTable frames = make_face_frames(faces);

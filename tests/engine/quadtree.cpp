@@ -324,3 +324,45 @@ TEST_CASE("smooth edges: of three polygons on an edge the two that go on most st
   CHECK(joints.edge[0][1].face == 2);
   CHECK(joints.edge[1][3].face == kNone);
 }
+
+TEST_CASE("a budget is never passed, balance included, and what weighs most is marked first") {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {});
+  const FaceFrameTable frames = make_face_frames(faces);
+  const FaceLinkTable links = make_face_links(faces);
+  // A corner that is finer and finer: to split its smallest leaves pulls ever larger neighbours along.
+  PatchTable leaves = make_leaves(faces, frames, [](uint32_t) { return 1u; });
+  std::vector<uint32_t> parent;
+  for (int step = 0; step < 5; ++step) {
+    std::vector<uint8_t> marks(leaves.size(), 0);
+    marks[find_leaf(leaves, 0, find_cell(false, {0.499f, 0.499f}))] = 1;
+    mark_for_balance(marks, leaves, frames, links);
+    leaves = split_leaves(leaves, frames, marks, parent);
+  }
+  std::vector<uint32_t> candidates;
+  std::vector<float> weight(leaves.size());
+  for (uint32_t row = 0; row < leaves.size(); ++row) {
+    weight[row] = 1 / leaves.area[row] + 1e-3f * static_cast<float>(row);
+    if (row % 2 == 0) candidates.push_back(row);
+  }
+  uint64_t marked_most = 0;
+  for (uint64_t budget = leaves.size(); budget < 4 * leaves.size(); ++budget) {
+    const std::vector<uint8_t> marks = mark_within_budget(candidates, weight, leaves, frames, links, budget);
+    PatchTable split = split_leaves(leaves, frames, marks, parent);
+    CHECK(split.size() <= budget);
+    const size_t size = split.size();
+    balance_leaves(split, frames, links);
+    CHECK(split.size() == size);
+    // No candidate is left out for one of less weight, but for those that balance marks.
+    std::vector<uint8_t> heaviest(leaves.size(), 0);
+    float most_left = 0;
+    for (const uint32_t row : candidates)
+      if (!marks[row]) most_left = std::max(most_left, weight[row]);
+    for (const uint32_t row : candidates) heaviest[row] = weight[row] > most_left;
+    mark_for_balance(heaviest, leaves, frames, links);
+    for (uint32_t row = 0; row < leaves.size(); ++row) CHECK(marks[row] <= heaviest[row]);
+    const auto marked = static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1));
+    marked_most = std::max(marked_most, marked);
+  }
+  CHECK(marked_most >= candidates.size());
+}
