@@ -70,19 +70,18 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, const FaceTable
 }
 
 // One more bounce of the whole coarse solution, with its standard error: what patches receive of all that the
-// others send, from two halves of their rays.
-void step_coarse(Solution& s, const Rows& rows, const FaceTable& faces) {
+// others send, from two halves of their rays. direct, emitted: a row a patch, W/m2: the means of the
+// elements' direct light, and what rows catch of emission.
+void step_coarse(Solution& s, const Rows& rows, const FaceTable& faces, std::span<const Rgb> direct,
+                 std::span<const Rgb> emitted) {
   const size_t count = s.patches.size();
-  const std::vector<Rgb> direct = find_patch_means(s, s.direct);
   std::vector<Rgb> sent(count), difference(count), received(count);
   for (size_t p = 0; p < count; ++p)
     sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + s.coarse[p]);
-  s.coarse.resize(count);
-  gather_emission(s.coarse, rows, s.aims);
   gather_patches(received, difference, rows, sent);
   s.coarse_error.resize(count);
   for (size_t p = 0; p < count; ++p) {
-    s.coarse[p] += received[p];
+    s.coarse[p] = emitted[p] + received[p];
     s.coarse_error[p] = largest(difference[p]);
   }
 }
@@ -92,10 +91,11 @@ void step_coarse(Solution& s, const Rows& rows, const FaceTable& faces) {
 void find_coarse(Solution& s, const Rows& rows, const FaceTable& faces) {
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
-  std::vector<Rgb> sent(count), next(count);
-  gather_emission(next, rows, s.aims);
-  s.coarse = next;
-  for (size_t p = 0; p < count; ++p) sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + next[p]);
+  std::vector<Rgb> emitted(count), sent(count), next(count);
+  gather_emission(emitted, rows, s.aims);
+  s.coarse = emitted;
+  for (size_t p = 0; p < count; ++p)
+    sent[p] = faces.reflectance[s.patches.face[p]] * (direct[p] + emitted[p]);
   for (uint32_t pass = 2; pass <= kCoarsePassesMax; ++pass) {
     gather_patches(next, {}, rows, sent);
     double added = 0, all = 0;
@@ -107,7 +107,7 @@ void find_coarse(Solution& s, const Rows& rows, const FaceTable& faces) {
     }
     if (added <= kCoarseUntil * all) break;
   }
-  step_coarse(s, rows, faces);
+  step_coarse(s, rows, faces, direct, emitted);
 }
 
 // The coarse solution's radiosity of the elements `rows`.
@@ -181,6 +181,7 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
 // stay whole are kept.
 bool split_patches(Solution& s, const FaceTable& faces, const Tracer& tracer,
                    const SolverSettings& settings) {
+  Stopwatch watch;
   const size_t count = s.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.direct);
   std::vector<float> indirect(count), total(count), error(count);
@@ -193,7 +194,10 @@ bool split_patches(Solution& s, const FaceTable& faces, const Tracer& tracer,
   const std::vector<uint8_t> marks =
       mark_uneven(s.patches, {indirect, total, error}, faces, s.frames, s.links, s.joints,
                   count_transport_patches(faces, settings), find_size_factor(settings));
-  if (std::count(marks.begin(), marks.end(), 1) == 0) return false;
+  if (std::count(marks.begin(), marks.end(), 1) == 0) {
+    s.seconds.split += watch.read();
+    return false;
+  }
   std::vector<uint32_t> parent, row_before, fresh_rows;
   const PatchTable before = std::move(s.patches);
   s.patches = split_leaves(before, s.frames, marks, parent);
@@ -202,9 +206,11 @@ bool split_patches(Solution& s, const FaceTable& faces, const Tracer& tracer,
   for (uint32_t row = 0; row < row_before.size(); ++row)
     if (row_before[row] == kNone) fresh_rows.push_back(row);
   s.patch_index = make_leaf_index(s.patches);
+  s.seconds.split += watch.read();
   s.transport_ray_count +=
       cast_rows(s.hits, s.patches, fresh_rows, s.patch_index, s.receivers, faces, s.frames, tracer,
                 {count_row_rays(settings), settings.seed, settings.keep_rows});
+  s.seconds.trace += watch.read();
   s.patch_vertices = make_vertices(s.patches, s.frames, s.joints);
   inherit(s.coarse, parent);
   // Elements stay parts of patches.
@@ -215,8 +221,14 @@ bool split_patches(Solution& s, const FaceTable& faces, const Tracer& tracer,
   }
   mark_for_balance(element_marks, s.elements, s.frames, s.joints);
   split_elements(s, element_marks);
+  s.seconds.split += watch.read();
   find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);
-  step_coarse(s, get_rows(s, faces, tracer, settings), faces);
+  s.seconds.trace += watch.read();
+  const Rows rows = get_rows(s, faces, tracer, settings);
+  std::vector<Rgb> emitted(s.patches.size());
+  gather_emission(emitted, rows, s.aims);
+  step_coarse(s, rows, faces, find_patch_means(s, s.direct), emitted);
+  s.seconds.solve += watch.read();
   return true;
 }
 
@@ -277,8 +289,10 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   find_direct_of(s, s.fresh, faces, tracer, kStartRays, settings);
   s.seconds.trace += watch.read();
   find_coarse(s, get_rows(s, faces, tracer, settings), faces);
+  s.seconds.solve += watch.read();
   for (uint32_t round = 0; round < kPatchRoundsMax && split_patches(s, faces, tracer, settings); ++round) {
   }
+  watch = {};  // the rounds told their time themselves
   s.fresh = all_rows(s.elements.size());
   find_coarse_radiosity(s, s.fresh, faces);
   find_mean_radiosity(s, faces);
