@@ -68,9 +68,9 @@ double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
 
 }  // namespace
 
-Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings) {
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
   const auto face_count = static_cast<double>(faces.size());
-  const auto start = static_cast<double>(count_starting_patches(faces, settings));
+  const auto start = static_cast<double>(starting_patches);
   const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
   const double rays = make_row_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
   const double row_ray = kRowRay + kRowRayOfDepth * depth;

@@ -16,7 +16,7 @@ struct Forecast {
   double seconds = 0;
   double bytes = 0;
 };
-Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings);
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
 
 // Of one picture's film.
 double forecast_film_seconds(const FaceTable& faces, double pixels);

@@ -60,16 +60,18 @@ uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& se
   return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings).start);
 }
 
-uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings) {
-  // Bytes a row, from tables.h; the largest moment is a split, when the elements exist twice, or the making
-  // of the shared corners.
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
+  // Bytes a row, from tables.h; the largest moment is a split, when the rows of the patches or, later, the
+  // elements exist twice, or the making of the shared corners.
   constexpr uint64_t kFaceBytes = 700, kElementBytes = 190, kPatchBytes = 200;
-  const uint64_t start = count_starting_patches(faces, settings);
-  const uint64_t elements = std::max(start, settings.patch_count_max);
+  const uint64_t elements = std::max(starting_patches, settings.patch_count_max);
   const uint64_t patches = count_transport_patches(faces, settings);
   const uint64_t row_bytes =
       settings.keep_rows ? 8 * uint64_t{make_row_grid(count_row_rays(settings)).ray_count()} : 0;
-  return kFaceBytes * faces.size() + kElementBytes * elements + (kPatchBytes + row_bytes) * patches;
+  const uint64_t rows = row_bytes * patches;
+  return kFaceBytes * faces.size() + kPatchBytes * patches +
+         std::max(2 * rows + kElementBytes * std::max(starting_patches, patches),
+                  rows + kElementBytes * elements);
 }
 
 uint64_t count_bytes(const Solution& s) {

@@ -118,7 +118,7 @@ uint64_t find_solution_hash(const Solution& solution);
 // taken.
 uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings);
 // Bytes that a solve with these settings will hold at its peak, an upper estimate.
-uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings);
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
 // Bytes that the tables hold now.
 uint64_t count_bytes(const Solution& solution);
 

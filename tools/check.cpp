@@ -17,7 +17,6 @@ int check(const Options& options, Talk& talk) {
   check_limits(scene, plan);
   if (options.json) return 0;
 
-  const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
   const RunForecast likely = forecast_run(scene, plan);
   std::string text = fmt::format(
       "{}: {}\n"
@@ -30,7 +29,7 @@ int check(const Options& options, Talk& talk) {
       warnings.empty()
           ? "right"
           : fmt::format("right, with {} warning{}", warnings.size(), warnings.size() > 1 ? "s" : ""),
-      scene.polygons.size(), scene.faces.size(), patches, scene.solver.patch_count_max,
+      scene.polygons.size(), scene.faces.size(), plan.starting_patches, scene.solver.patch_count_max,
       format_bytes(likely.bytes), format_bytes(forecast_run_bytes(scene, plan)),
       format_bytes(find_memory_available()), format_seconds(likely.seconds), plan.thread_count,
       plan.thread_count == 1 ? "" : "s");

@@ -115,6 +115,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
   plan.seconds_max = options.max_seconds;
   plan.thread_count = options.threads ? *options.threads : thread_count_default();
+  plan.starting_patches = count_starting_patches(scene.faces, scene.solver);
   scene.solver.keep_rows =
       options.keep_rows ? *options.keep_rows : forecast_run_bytes(scene, plan) <= plan.bytes_max;
   return plan;
@@ -130,7 +131,7 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
-  uint64_t bytes = forecast_bytes(scene.faces, scene.solver);
+  uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
   if (!plan.has_pictures()) return bytes;
   uint64_t pixels_largest = 0;
   for (const Camera& camera : plan.cameras) {
@@ -142,7 +143,7 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
 }
 
 RunForecast forecast_run(const Scene& scene, const Plan& plan) {
-  const Forecast solve = forecast_solve(scene.faces, scene.solver);
+  const Forecast solve = forecast_solve(scene.faces, scene.solver, plan.starting_patches);
   double bytes = kProgramBytesLikely + solve.bytes, seconds = solve.seconds, pixels_largest = 0;
   if (plan.has_pictures())
     for (const Camera& camera : plan.cameras) {
@@ -162,7 +163,7 @@ void check_limits(const Scene& scene, const Plan& plan) {
     const std::string fault = find_image_fault(plan.limits, camera.width, camera.height);
     if (!fault.empty()) throw UserError("image-too-large", fault, scene.file);
   }
-  const uint64_t patches = count_starting_patches(scene.faces, scene.solver);
+  const uint64_t patches = plan.starting_patches;
   if (patches > scene.solver.patch_count_max)
     throw UserError("too-many-patches",
                     fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches "

@@ -20,6 +20,7 @@ struct Plan {
   uint64_t bytes_max = 0;   // what the run may hold at its peak
   double seconds_max = 0;   // what it may likely take
   size_t thread_count = 1;  // what it will run on
+  uint64_t starting_patches = 0;
   bool has_pictures() const;
 };
 

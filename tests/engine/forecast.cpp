@@ -42,7 +42,7 @@ TEST_CASE("a forecast is near what a solve makes, casts and holds") {
     settings.until = 0;
     const Run run = run_scene(faces, settings, 2);
     const Solution& s = run.solution;
-    const Forecast forecast = forecast_solve(faces, settings);
+    const Forecast forecast = forecast_solve(faces, settings, count_starting_patches(faces, settings));
     CAPTURE(forecast.elements);
     CAPTURE(s.elements.size());
     CAPTURE(forecast.patches);
@@ -58,12 +58,12 @@ TEST_CASE("a forecast is near what a solve makes, casts and holds") {
 
 TEST_CASE("more rays, patches, passes or faces take longer; rows that are not kept take no memory") {
   const FaceTable faces = make_lit_room();
-  const Forecast usual = forecast_solve(faces, {});
+  const Forecast usual = forecast_solve(faces, {}, count_starting_patches(faces, {}));
   CHECK(usual.seconds > 0);
   const auto with = [&](auto&& change) {
     SolverSettings settings;
     change(settings);
-    return forecast_solve(faces, settings);
+    return forecast_solve(faces, settings, count_starting_patches(faces, settings));
   };
   CHECK(with([](SolverSettings& s) { s.rays = 1024; }).seconds > 2 * usual.seconds);
   CHECK(with([](SolverSettings& s) { s.pass_count_max = 1000; }).seconds > usual.seconds);
@@ -81,7 +81,7 @@ TEST_CASE("more rays, patches, passes or faces take longer; rows that are not ke
     const float low = static_cast<float>(k) * 1e-3f;
     add_box_outward(more, Vec3(low), Vec3(low + 1e-4f), make_surface(0, 0.5f));
   }
-  CHECK(forecast_solve(more, {}).seconds > usual.seconds);
+  CHECK(forecast_solve(more, {}, count_starting_patches(more, {})).seconds > usual.seconds);
   CHECK(forecast_film_seconds(more, 1000) > forecast_film_seconds(faces, 1000));
 }
 
@@ -92,7 +92,8 @@ TEST_CASE("the largest settings have a forecast") {
   settings.pass_count_max = 1'000'000;
   settings.patch_size = 1e-30f;
   settings.keep_rows = false;
-  const Forecast forecast = forecast_solve(make_lit_room(), settings);
+  const Forecast forecast =
+      forecast_solve(make_lit_room(), settings, count_starting_patches(make_lit_room(), settings));
   CHECK(std::isfinite(forecast.seconds));
   CHECK(forecast.seconds > 1e8);
   CHECK(std::isfinite(forecast.bytes));

@@ -76,7 +76,8 @@ Json measure_growth(const BenchOptions& options, Talk& talk) {
   for (const uint64_t count : counts) {
     const auto settings = settings_for_count(scene.faces, scene.solver, count);
     if (!settings) continue;  // the scene has too many faces for so few patches
-    const uint64_t bytes = forecast_bytes(scene.faces, *settings);
+    const uint64_t bytes =
+        forecast_bytes(scene.faces, *settings, count_starting_patches(scene.faces, *settings));
     if (bytes > memory) {
       section["stopped"] = fmt::format("{} patches may need {}, {} are allowed", count, format_bytes(bytes),
                                        format_bytes(memory));
