@@ -334,10 +334,11 @@ void freeze(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   s.views = {};
   s.fresh = {};
   s.element_vertices = make_vertices(s.elements, s.frames, s.joints);
-  for (size_t row = 0; row < s.elements.size(); ++row)
-    s.elements.radiosity[row] = s.elements.unshot[row] = faces.emission[s.elements.face[row]];
-  for (size_t p = 0; p < s.patches.size(); ++p)
-    s.patches.radiosity[p] = s.patches.unshot[p] = faces.emission[s.patches.face[p]];
+  for (PatchTable* table : {&s.elements, &s.patches})
+    for_rows(table->size(), 16384, [&](size_t begin, size_t end) {
+      for (size_t row = begin; row < end; ++row)
+        table->radiosity[row] = table->unshot[row] = faces.emission[table->face[row]];
+    });
   s.irradiance.assign(s.patches.size(), Rgb(0));
   s.irradiance_added.assign(s.patches.size(), Rgb(0));
   s.frozen = true;

@@ -31,7 +31,8 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
                                     const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
                                     float patch_size_min, uint64_t patch_count_max) {
   const PatchTable& elements = input.elements;
-  // The largest difference that each element has a part in; in the end, times its area.
+  // The largest difference that each element has a part in; in the end, times its area, and 0 where
+  // none may be split.
   std::vector<float> excess(elements.size(), 0);
   for_rows(input.fresh.size(), 512, [&](size_t begin, size_t end) {
     // The same pair may be met from both sides: the maximum does not depend on the order.
@@ -52,15 +53,18 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
         }
     }
   });
+  for_rows(elements.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      if (excess[row] <= 0) continue;
+      const float edge =
+          longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
+      const bool is_least = elements.level[row] >= kLevelMax - 1 || edge < patch_size_min;
+      excess[row] *= is_least ? 0 : elements.area[row];
+    }
+  });
   std::vector<uint32_t> candidates;
-  for (uint32_t row = 0; row < elements.size(); ++row) {
-    if (excess[row] <= 0 || elements.level[row] >= kLevelMax - 1) continue;
-    const float edge =
-        longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
-    if (edge < patch_size_min) continue;
-    candidates.push_back(row);
-    excess[row] *= elements.area[row];
-  }
+  for (uint32_t row = 0; row < elements.size(); ++row)
+    if (excess[row] > 0) candidates.push_back(row);
   return mark_within_budget(std::move(candidates), excess, elements, frames, joints, patch_count_max);
 }
 
