@@ -8,6 +8,7 @@ set(DSL_TEST_SOURCES
   dsl/include.cpp
   dsl/language.cpp
   dsl/limits.cpp
+  dsl/materials.cpp
   dsl/mesh.cpp
   dsl/number.cpp
   dsl/objects.cpp
