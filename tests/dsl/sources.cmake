@@ -14,6 +14,7 @@ set(DSL_TEST_SOURCES
   dsl/objects.cpp
   dsl/overrides.cpp
   dsl/prescan.cpp
+  dsl/readmes.cpp
   dsl/settings.cpp
   dsl/shape_group.cpp
   dsl/shape_repeat.cpp
