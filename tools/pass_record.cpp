@@ -27,6 +27,7 @@ std::vector<uint32_t> pack_values(std::span<const Rgb> values, float gain) {
 uint32_t pack_shared_exponent(Rgb value) {
   // The comparison is false for what is no number.
   for (int k = 0; k < 3; ++k) value[k] = value[k] > 0 ? std::min(value[k], kLargest) : 0.0f;
+  if (largest(value) == 0) return 0;
   int exponent = 0;
   std::frexp(largest(value), &exponent);  // the largest is below 2^exponent
   exponent = std::max(exponent, -kExponentBias);

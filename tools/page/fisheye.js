@@ -74,7 +74,7 @@ export function makeFisheye(renderer) {
       // Rows of the graphics card run upwards.
       for (let y = 0; y < size; ++y)
         image.data.set(pixels.subarray(4 * size * (size - 1 - y), 4 * size * (size - y)), 4 * size * y);
-      canvas.getContext('2d').putImageData(image, 0, 0);
+      canvas.getContext('2d', {willReadFrequently: true}).putImageData(image, 0, 0);
     },
   };
 }

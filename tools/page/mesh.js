@@ -29,7 +29,7 @@ void main() {
   vec4 place = modelViewMatrix * vec4(position, 1.0);
 #ifdef SEAMS
   // A hair further away, on the same ray: surfaces hide seams. Out of sight with the lit side.
-  place.xyz *= 1.002;
+  place.xyz *= 1.005;
   if (dot(place.xyz, mat3(modelViewMatrix) * normal) >= 0.0) place.xyz = vec3(0.0);
 #endif
   gl_Position = projectionMatrix * place;
@@ -171,7 +171,7 @@ function makeSeams(data) {
 export function makeMesh(data) {
   const position = new THREE.BufferAttribute(data.position, 3);
   const light = {vertex: makeTexture(data.position.length / 3), patch: makeTexture(data.level.length)};
-  const behind = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1};
+  const behind = {polygonOffsetFactor: 1, polygonOffsetUnits: 1};
   const makers = {
     smooth: () => new THREE.Mesh(makeSmooth(data, position), makeMaterial(light.vertex, {}, behind)),
     flat: () => new THREE.Mesh(makeFlat(data), makeMaterial(light.patch, {ROWS: ''}, behind)),
@@ -191,6 +191,8 @@ export function makeMesh(data) {
     for (const [name, object] of Object.entries(made)) {
       object.visible = shown.includes(name);
       object.material.uniforms.gain.value = gain;
+      // Only where lines lie on them: it puts the edges of slanted surfaces behind their seams.
+      object.material.polygonOffset = outlines;
     }
     // Over a surface, lines are a shade; alone they are the light.
     made.lines?.material.uniforms.tint.value.set(0.3, 0.34, 0.4, style === 'lines' ? 0 : 0.4);

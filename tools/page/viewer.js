@@ -105,7 +105,7 @@ function start(data) {
 
   function choose(name, value) {
     document.querySelector(`input[name="${name}"][value="${value}"]`).checked = true;
-    if (name === 'style') mesh.setStyle(value);
+    if (name === 'surface') mesh.setStyle(value);
     else mover.setMode(value);
     redraw();
   }
@@ -182,7 +182,7 @@ function start(data) {
     // Upwards on walls; on floors and ceilings away from who looks at them.
     const up = camera.up.clone();
     if (Math.abs(up.dot(picked.normal)) > 0.9) camera.getWorldDirection(up);
-    const style = document.querySelector('input[name="style"]:checked').value;
+    const style = document.querySelector('input[name="surface"]:checked').value;
     mesh.setOutlines(false);
     mesh.setStyle(style === 'lines' ? 'smooth' : style);
     fisheye.draw(byId('fisheye'), mesh.group, picked, up, byId('by-share').checked);
@@ -198,7 +198,8 @@ function start(data) {
       const corners = [];
       for (let k = data.outlineFirst[picked.patch]; k < data.outlineFirst[picked.patch + 1]; ++k)
         corners.push(new THREE.Vector3().fromArray(data.position, 3 * data.outline[k]));
-      frame.geometry.setFromPoints(corners);
+      frame.geometry.dispose();
+      frame.geometry = new THREE.BufferGeometry().setFromPoints(corners);
     }
     showPicked();
     redraw();
@@ -246,9 +247,9 @@ function start(data) {
     Equal: () => changeExposure(0.5),
     BracketRight: () => changeExposure(0.5),
     NumpadAdd: () => changeExposure(0.5),
-    Digit1: () => choose('style', 'smooth'),
-    Digit2: () => choose('style', 'flat'),
-    Digit3: () => choose('style', 'lines'),
+    Digit1: () => choose('surface', 'smooth'),
+    Digit2: () => choose('surface', 'flat'),
+    Digit3: () => choose('surface', 'lines'),
     KeyM: () => byId('outlines').click(),
     KeyO: () => choose('mode', 'orbit'),
     KeyF: () => choose('mode', 'walk'),
@@ -278,7 +279,7 @@ function start(data) {
   }
   byId('pass').max = light.length - 1;
   goTo(0);
-  choose('style', header.shading);
+  choose('surface', header.shading);
   showPass(light.length - 1);
   showExposure();
   renderer.render(scene, camera);
