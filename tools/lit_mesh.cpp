@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace patchlight {
 namespace {
@@ -86,10 +87,14 @@ Ring find_outline(const Solution& s, uint32_t row, std::span<const Vec3> positio
   return ring;
 }
 
-// The id without its last part: .NAME or [...]; the other side of a polygon is a part of the same thing.
-std::string_view find_thing_name(std::string_view id) {
+using IdSet = std::unordered_set<std::string_view>;
+
+// The id without its last part: .NAME or [...]. The other side of a polygon is a part of the same thing; a
+// room has a wall called back, too.
+std::string_view find_thing_name(std::string_view id, const IdSet& ids) {
   constexpr std::string_view kBack = ".back";
-  if (id.ends_with(kBack) && id.size() > kBack.size()) id.remove_suffix(kBack.size());
+  if (id.ends_with(kBack) && ids.contains(id.substr(0, id.size() - kBack.size())))
+    id.remove_suffix(kBack.size());
   const size_t cut = id.find_last_of(".[");
   return cut == std::string_view::npos || cut == 0 ? id : id.substr(0, cut);
 }
@@ -175,11 +180,12 @@ std::vector<Vec3> find_polygon_normals(const Scene& scene) {
 }
 
 ThingTable find_things(const PolygonTable& polygons) {
+  const IdSet ids(polygons.id.begin(), polygons.id.end());
   ThingTable things;
   std::unordered_map<std::string_view, uint32_t> known;
   std::vector<uint32_t> thing_of(polygons.size());
   for (size_t polygon = 0; polygon < polygons.size(); ++polygon) {
-    const std::string_view name = find_thing_name(polygons.id[polygon]);
+    const std::string_view name = find_thing_name(polygons.id[polygon], ids);
     const auto [at, fresh] = known.try_emplace(name, static_cast<uint32_t>(things.size()));
     if (fresh) things.name.emplace_back(name);
     thing_of[polygon] = at->second;

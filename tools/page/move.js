@@ -36,7 +36,8 @@ export function makeMover(camera, element, changed) {
     if (mode === 'walk') element.setPointerCapture(event.pointerId);
   });
   addEventListener('keydown', event => {
-    if (!keys[event.code] || event.ctrlKey || event.metaKey || event.altKey || event.target.closest('input, select')) return;
+    const taken = event.target.closest(event.code.startsWith('Arrow') ? 'select, dialog, input' : 'select, dialog');
+    if (!keys[event.code] || taken || event.ctrlKey || event.metaKey || event.altKey) return;
     held.add(event.code);
     event.preventDefault();
     changed();

@@ -114,10 +114,11 @@ function start(data) {
 
   const area = patch => data.area[patch] * header.units_per_length ** 2;
   const triple = (column, row) => [0, 1, 2].map(k => column[3 * row + k]);
+  // Passes before the last are kept in nine bits a channel: three digits.
   const radiosityAfter = (index, patch) =>
     index === light.length - 1
       ? triple(data.radiosity, patch)
-      : unpackLight(light[index].patch[patch]).map(value => value / 2 ** header.exposure);
+      : unpackLight(light[index].patch[patch]).map(value => Number((value / 2 ** header.exposure).toPrecision(3)));
 
   function fillTable(id, rows) {
     byId(id).tBodies[0].replaceChildren(...rows.map(({name, values, now}) => {
@@ -259,8 +260,9 @@ function start(data) {
   };
   addEventListener('keydown', event => {
     fast = event.shiftKey;
-    const typing = event.target.closest('select, dialog, button, input[type="range"]') && event.code !== 'Escape';
-    if (!actions[event.code] || typing || event.ctrlKey || event.metaKey || event.altKey) return;
+    // What these do with a key is theirs.
+    const taken = event.target.closest(event.code === 'Space' ? 'select, dialog, button, input' : 'select, dialog');
+    if (!actions[event.code] || taken || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     actions[event.code]();
   });
