@@ -163,6 +163,7 @@ Json make_header(const Scene& scene, const PassRecord& record, std::span<const B
                  {"units_per_length", scene.units_per_length},
                  {"exposure", *scene.output.exposure_ev},
                  {"shading", scene.output.shading == Shading::kFlat ? "flat" : "smooth"},
+                 {"step", record.step},
                  {"passes", record.pass}};
   for (const Camera& camera : scene.cameras)
     header["cameras"].push_back({{"name", camera.name},

@@ -4,6 +4,7 @@
 #include "engine/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace patchlight {
@@ -51,7 +52,8 @@ Rgb unpack_shared_exponent(uint32_t word) {
 
 void record_pass(PassRecord& record, const Solution& solution, const FaceTable& faces, double ev, bool last) {
   const auto pass = static_cast<uint32_t>(solution.passes.size());
-  if (pass > kRecordedPassesMax && !last) return;
+  const bool due = record.step == "shot" ? std::has_single_bit(pass) : pass <= kRecordedPassesMax;
+  if (!due && !last) return;
   const auto gain = static_cast<float>(std::exp2(ev));
   record.pass.push_back(pass);
   record.vertex.push_back(pack_values(vertex_radiosity(solution, faces), gain));

@@ -52,6 +52,27 @@ std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
   return cameras;
 }
 
+// No scene needs so many; a closed room of reflectance 1 never ends.
+constexpr uint32_t kShotsMax = 10'000'000;
+
+// The solver, how far it goes, and what is pictured on the way.
+void plan_steps(Plan& plan, Scene& scene, const Options& options) {
+  plan.solver = &solvers()[0];
+  for (const Solver& solver : solvers())
+    if (solver.name == options.solver) plan.solver = &solver;
+  if (!options.max_patches)
+    scene.solver.patch_count_max = std::min(scene.solver.patch_count_max, plan.solver->patch_count_usual);
+  if (plan.solver == &solvers()[0]) {
+    plan.step_count_max = scene.solver.pass_count_max;
+    plan.snapshots =
+        pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
+    return;
+  }
+  scene.solver.ambient = options.ambient;
+  plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kSolutionStep} : options.shots;
+  plan.step_count_max = options.shots.empty() ? kShotsMax : options.shots.back();
+}
+
 }  // namespace
 
 bool Plan::has_pictures() const {
@@ -121,7 +142,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   if (plan.stem.empty() || plan.stem.find('/') != std::string::npos)
     throw UserError("output-outside-dir",
                     fmt::format("'{}' cannot begin the names of files", escape_text(plan.stem)));
-  plan.snapshots = pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
+  plan_steps(plan, scene, options);
   plan.cameras = pick_cameras(scene, options);
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
@@ -136,17 +157,21 @@ Plan make_plan(Scene& scene, const Options& options) {
   return plan;
 }
 
-std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter) {
   const bool flat = scene.output.shading == Shading::kFlat;
   const bool mesh = plan.mesh && exporter.pixels == PixelKind::kDisplay;
-  return fmt::format("{}{}{}-pass-{:02}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
-                     plan.cameras_named ? camera.name : "", pass, flat ? "-flat" : "", mesh ? "-mesh" : "",
-                     exporter.format);
+  const int digits = plan.solver->step == "shot" ? 6 : 2;
+  const std::string place =
+      step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
+  return fmt::format("{}{}{}-{}{}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
+                     plan.cameras_named ? camera.name : "", place, scene.solver.ambient ? "-ambient" : "",
+                     flat ? "-flat" : "", mesh ? "-mesh" : "", exporter.format);
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
-  uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
+  uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches) +
+                   plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
   // Files of the whole solution are written one after the other.
   uint64_t bytes_per_patch = 0;
   for (const Exporter* exporter : plan.exporters)
@@ -165,6 +190,8 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
 RunForecast forecast_run(const Scene& scene, const Plan& plan) {
   const Forecast solve = forecast_solve(scene.faces, scene.solver, plan.starting_patches);
   double bytes = kProgramBytesLikely + solve.bytes, seconds = solve.seconds, pixels_largest = 0;
+  bytes += static_cast<double>(plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches));
+  seconds += plan.solver->forecast_seconds(scene.faces, scene.solver, plan.starting_patches);
   if (makes_films(plan, scene))
     for (const Camera& camera : plan.cameras) {
       const double pixels = static_cast<double>(uint64_t{camera.width} * camera.height);

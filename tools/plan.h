@@ -1,6 +1,7 @@
 // Scene file and flags -> what this run will do, and whether it may.
 #pragma once
 
+#include "engine/solvers.h"
 #include "exporters.h"
 #include "options.h"
 
@@ -9,9 +10,14 @@
 
 namespace patchlight {
 
+// A picture of where a solver ends, whichever step that is.
+constexpr uint32_t kSolutionStep = ~uint32_t{0};
+
 struct Plan {
-  std::string stem;                 // S in the names of files
-  std::vector<uint32_t> snapshots;  // passes to picture: ascending, not empty, none beyond the last
+  std::string stem;  // S in the names of files
+  const Solver* solver = nullptr;
+  uint32_t step_count_max = 0;      // steps (passes, shots) at most
+  std::vector<uint32_t> snapshots;  // steps to picture: ascending, not empty
   std::vector<Camera> cameras;      // the asked ones, with the asked size
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
@@ -38,8 +44,8 @@ std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool al
 // The scene file's name without its folder and .yaml; "scene" for standard input.
 std::string pick_stem(const std::string& scene_file, const std::string& basename);
 
-// S-pass-02-flat-mesh.png and the like.
-std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+// S-pass-02-flat-mesh.png, S-shot-000100-ambient.png, S-solution.png and the like.
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
 
 // True where the run looks through its cameras: for pictures, or to find an exposure by.

@@ -125,6 +125,7 @@ TEST_CASE("a page holds the mesh, the numbers of the patches and the light after
   const PageData data = make_page(lit);
   CHECK(data.header["format"] == "patchlight-page");
   CHECK(data.header["version"] == 1);
+  CHECK(data.header["step"] == "pass");
   CHECK(data.header["passes"] == Json{1, 2, 3});
   CHECK(data.header["units"] == "cm");
   CHECK(data.header["exposure"] == -1);

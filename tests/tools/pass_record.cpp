@@ -39,6 +39,17 @@ TEST_CASE("a shared-exponent word errs by half a step of 2^-8 of its largest at 
   }
 }
 
+TEST_CASE("of shots a record keeps the powers of two and the last") {
+  LitScene lit;
+  add_box_inward(lit.scene.faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, 0.5f)));
+  name_polygons(lit.scene, {"a.0", "a.1", "a.2", "a.3", "a.4", "a.5"});
+  lit.scene.solver.rays = 16;
+  lit.scene.solver.patch_count_max = 100;
+  lit.record.step = "shot";
+  solve_scene(lit, 21);
+  CHECK(lit.record.pass == std::vector<uint32_t>{1, 2, 4, 8, 16, 21});
+}
+
 TEST_CASE("a record keeps the first sixteen passes and the last, times two to the EV") {
   LitScene lit;
   add_box_inward(lit.scene.faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, 0.5f)));

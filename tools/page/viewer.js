@@ -20,8 +20,15 @@ function format(value) {
 const powerUnits = [['GW', 1e9], ['MW', 1e6], ['kW', 1e3], ['W', 1], ['mW', 1e-3], ['µW', 1e-6], ['nW', 1e-9]];
 const pickPowerUnit = watts => powerUnits.find(([, size]) => watts >= size) ?? powerUnits[watts > 0 ? 6 : 3];
 
+// How the page speaks of what the solver did: of `count` passes or shots, or of one solution.
+const steps = {
+  pass: {name: 'Pass', all: count => `${count} passes`, growth: 'Radiosity after each pass'},
+  shot: {name: 'Shot', all: count => `${count} shots`, growth: 'Radiosity after 1, 2, 4 ... shots'},
+  solution: {name: 'Solution', all: () => 'solved at once', growth: ''},
+};
+
 function start(data) {
-  const {header, polygons, light} = data;
+  const {header, polygons, light} = data, step = steps[header.step], all = light[light.length - 1].pass;
   const renderer = new THREE.WebGLRenderer({canvas: byId('view'), antialias: true, powerPreference: 'high-performance'});
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   const scene = new THREE.Scene();
@@ -70,7 +77,7 @@ function start(data) {
   function showPass(index) {
     passIndex = Math.max(0, Math.min(light.length - 1, index));
     byId('pass').value = passIndex;
-    byId('pass-number').textContent = `${light[passIndex].pass} of ${light[light.length - 1].pass}`;
+    byId('pass-number').textContent = `${light[passIndex].pass} of ${all}`;
     mesh.show(passIndex);
     showPicked();
     redraw();
@@ -164,16 +171,16 @@ function start(data) {
       `patch ${patch}, level ${data.level[patch]}, area ${format(area(patch))} ${header.units}²\nat ` +
       place.map(value => String(Number(value.toFixed(2)))).join(', ').replaceAll('-0,', '0,');
     byId('panel').dataset.patch = patch;
-    const shown = light[passIndex].pass, all = light[light.length - 1].pass;
+    const shown = light[passIndex].pass;
     fillTable('light-table', [
       {name: 'Emission', values: emission},
       {name: 'Reflectance', values: reflectance},
-      ...(shown === all ? [] : [{name: `Radiosity, pass ${shown}`, values: radiosityAfter(passIndex, patch), now: true}]),
-      {name: `Radiosity, pass ${all}`, values: radiosity, now: shown === all},
+      ...(shown === all ? [] : [{name: `Radiosity, ${header.step} ${shown}`, values: radiosityAfter(passIndex, patch), now: true}]),
+      {name: `Radiosity, ${header.step} ${all}`, values: radiosity, now: shown === all},
     ]);
     const sent = radiosity.map(value => value * squareMetres), received = irradiance.map(value => value * squareMetres);
     const [unit, size] = pickPowerUnit(Math.max(...sent, ...received));
-    byId('power-unit').textContent = `${unit}, pass ${all}`;
+    byId('power-unit').textContent = `${unit}, ${header.step} ${all}`;
     fillTable('power-table', [
       {name: 'Received', values: received.map(value => value / size)},
       {name: 'Absorbed', values: received.map((value, k) => value * (1 - reflectance[k]) / size)},
@@ -274,7 +281,10 @@ function start(data) {
   document.title = header.title ? `${header.title} - patchlight` : 'patchlight';
   byId('title').textContent = header.title || header.scene;
   byId('facts').textContent =
-    `${data.level.length.toLocaleString('en')} patches, ${light[light.length - 1].pass} passes; light in W/m²`;
+    `${data.level.length.toLocaleString('en')} patches, ${step.all(all)}; light in W/m²`;
+  byId('step-name').textContent = step.name;
+  byId('growth-name').textContent = step.growth;
+  byId('growth-figure').hidden = byId('play').hidden = byId('pass').disabled = light.length === 1;
   if (header.cameras.length > 1) {
     byId('camera').hidden = false;
     byId('camera').append(...header.cameras.map((each, index) => new Option(each.name || `camera ${index + 1}`, index)));
