@@ -1,6 +1,7 @@
 // Display-linear pixels -> PNG in memory, by stb_image_write. Its own file functions report success on a full
 // disk, so it never sees a file.
 #include "exporters.h"
+#include "exposure.h"
 
 #include <algorithm>
 #include <array>
@@ -15,12 +16,7 @@
 namespace patchlight {
 namespace {
 
-// The transfer function of sRGB (IEC 61966-2-1).
-float encode_srgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-// The same from a table over the square root, in which the function is nearly straight: within 1e-5.
+// encode_srgb() from a table over the square root, in which the function is nearly straight: within 1e-5.
 class SrgbTable {
  public:
   SrgbTable() {

@@ -7,9 +7,32 @@ namespace patchlight {
 namespace {
 
 constexpr Exporter kExporters[] = {
-    {"png", PixelKind::kDisplay, encode_png, nullptr},
-    {"exr", PixelKind::kRadiosity, encode_exr, nullptr},
-    {"csv", PixelKind::kNoPixels, nullptr, export_patches_csv},
+    {.format = "png", .pixels = PixelKind::kDisplay, .encode_picture = encode_png},
+    {.format = "exr", .pixels = PixelKind::kRadiosity, .encode_picture = encode_exr},
+    {.format = "csv",
+     .pixels = PixelKind::kNoPixels,
+     .name_end = "-patches",
+     .export_solution = export_patches_csv},
+    {.format = "glb",
+     .pixels = PixelKind::kNoPixels,
+     .exposed = true,
+     .bytes_per_patch = 500,
+     .export_solution = export_glb},
+    {.format = "ply",
+     .pixels = PixelKind::kNoPixels,
+     .exposed = true,
+     .bytes_per_patch = 300,
+     .export_solution = export_ply},
+    {.format = "obj",
+     .pixels = PixelKind::kNoPixels,
+     .exposed = true,
+     .bytes_per_patch = 300,
+     .export_solution = export_obj},
+    {.format = "html",
+     .pixels = PixelKind::kNoPixels,
+     .exposed = true,
+     .bytes_per_patch = 700,
+     .export_passes = export_html},
 };
 
 }  // namespace

@@ -73,6 +73,10 @@ std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev) {
   return shown;
 }
 
+float encode_srgb(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
 void draw_mesh_lines(std::span<Rgb> pixels, std::span<const float> line_cover) {
   for (size_t pixel = 0; pixel < pixels.size(); ++pixel) {
     const Rgb line = kLineKeeps * pixels[pixel] + kLineTint;

@@ -23,6 +23,9 @@ double pick_exposure_ev(std::span<float> brightness);
 // so that the edge of a bright lamp is as smooth as any other.
 std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev);
 
+// The transfer function of sRGB (IEC 61966-2-1): display-linear 0..1 -> encoded 0..1.
+float encode_srgb(float linear);
+
 // Blends the lines of the mesh into display-linear pixels: darker on bright ground, bluish on dark.
 void draw_mesh_lines(std::span<Rgb> pixels, std::span<const float> line_cover);
 

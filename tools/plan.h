@@ -28,6 +28,8 @@ struct Plan {
   size_t thread_count = 1;  // what it will run on
   uint64_t starting_patches = 0;
   bool has_pictures() const;
+  bool is_exposed() const;      // something that it writes shows light as a display does
+  bool records_passes() const;  // something that it writes shows all passes
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -45,6 +47,9 @@ std::string pick_stem(const std::string& scene_file, const std::string& basename
 // S-pass-02-flat-mesh.png, S-shot-000100-ambient.png, S-solution.png and the like.
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
+
+// True where the run looks through its cameras: for pictures, or to find an exposure by.
+bool makes_films(const Plan& plan, const Scene& scene);
 
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);

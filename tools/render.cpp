@@ -47,6 +47,7 @@ struct Run {
   std::string folder;
   Solution solution;
   std::vector<FilmTable> films;  // a row a camera, once made
+  PassRecord record;             // of passes so far, where a format asks for it
   RunReport report;
   std::vector<std::string> tables, pictures;  // paths of files, written or on their way
   JobQueue jobs;
@@ -155,8 +156,12 @@ void write_tables(Run& run) {
   for (const Exporter* exporter : run.plan.exporters) {
     if (exporter->pixels != PixelKind::kNoPixels) continue;
     NewFile file;
-    open_file(file, fmt::format("{}/{}-patches.{}", run.folder, run.plan.stem, exporter->format));
-    exporter->export_solution(file, run.scene, run.solution);
+    open_file(file,
+              fmt::format("{}/{}{}.{}", run.folder, run.plan.stem, exporter->name_end, exporter->format));
+    if (exporter->export_passes != nullptr)
+      exporter->export_passes(file, run.scene, run.solution, run.record);
+    else
+      exporter->export_solution(file, run.scene, run.solution);
     commit_file(file);
     run.tables.push_back(file.path);
   }
@@ -185,6 +190,7 @@ void advance_all(Run& run, const Tracer& tracer) {
   const SolverSettings& settings = run.scene.solver;
   const Solver& solver = *run.plan.solver;
   std::span<const uint32_t> snapshots = run.plan.snapshots;
+  run.record.step = solver.step;
   bool last = false;
   while (!last) {
     const PassReport& step = solver.advance(run.solution, run.scene.faces, tracer, settings);
@@ -192,6 +198,8 @@ void advance_all(Run& run, const Tracer& tracer) {
     last = converged || step.pass == run.plan.step_count_max;
     if (last) run.report.stopped_reason = converged ? "converged" : name_steps(solver.step);
     say_step(run, step);
+    if (run.plan.records_passes())
+      record_pass(run.record, run.solution, run.scene.faces, *run.scene.output.exposure_ev, last);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
     while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
@@ -204,8 +212,8 @@ void advance_all(Run& run, const Tracer& tracer) {
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
   freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  if (run.plan.has_pictures()) make_films(run, tracer);
-  if (wants(run, PixelKind::kDisplay)) fix_exposure(run);
+  if (makes_films(run.plan, run.scene)) make_films(run, tracer);
+  if (run.plan.is_exposed()) fix_exposure(run);
   try {
     advance_all(run, tracer);
   } catch (const std::domain_error&) {

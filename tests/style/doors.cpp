@@ -52,6 +52,7 @@ TEST_CASE("each foreign library has one door") {
       {"^yaml-cpp/", {"dsl/"}},
       {"^stb", {"tools/export_png.cpp"}},
       {"^tinyexr", {"tools/export_exr.cpp"}},
+      {"^zlib", {"tools/export_html.cpp"}},
       {"^CLI/", {"tools/command_line.cpp"}},
       {"^nlohmann/", {"tools/json.h"}},
       {"^benchmark/", {"tools/bench/measure."}},
