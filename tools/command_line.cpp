@@ -159,6 +159,9 @@ void add_render_flags(CLI::App& app, Options& options) {
     options.out = text;
   });
   add_switch(app, "--mesh", options.mesh, "draw the borders of the patches");
+  add_choice(app, "--light", kLightNames,
+             "direct: emission and the light of pass 1; indirect: what later passes added; all unless given",
+             [&](size_t choice) { options.look.light = static_cast<Light>(choice); });
   add_value(app, "--format", fmt::format("{},...", fmt::join(exporter_formats(), "|")),
             "files to write; png unless given",
             [&](const std::string& text) { options.formats = parse_formats(text); });

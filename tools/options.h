@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dsl/load.h"
+#include "look.h"
 
 #include <array>
 #include <cstdint>
@@ -50,6 +51,7 @@ struct Options {
   std::optional<std::array<uint32_t, 2>> size;  // width, height, pixels
   std::optional<Shading> shading;
   bool mesh = false;
+  Look look;
   bool exposure_auto = false;  // asked for by name: stronger than an EV in the scene
   std::optional<double> exposure_ev;
   std::optional<uint32_t> rays;

@@ -110,6 +110,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras = pick_cameras(scene, options);
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
+  plan.look = options.look;
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
   plan.limits = options.load.limits;
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
@@ -125,9 +126,11 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
                               const Exporter& exporter) {
   const bool flat = scene.output.shading == Shading::kFlat;
   const bool mesh = plan.mesh && exporter.pixels == PixelKind::kDisplay;
-  return fmt::format("{}{}{}-pass-{:02}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
-                     plan.cameras_named ? camera.name : "", pass, flat ? "-flat" : "", mesh ? "-mesh" : "",
-                     exporter.format);
+  const std::string light =
+      plan.look.light == Light::kAll ? "" : "-" + kLightNames[static_cast<size_t>(plan.look.light)];
+  return fmt::format("{}{}{}-pass-{:02}{}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
+                     plan.cameras_named ? camera.name : "", pass, light, flat ? "-flat" : "",
+                     mesh ? "-mesh" : "", exporter.format);
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {

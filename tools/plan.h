@@ -15,6 +15,7 @@ struct Plan {
   std::vector<Camera> cameras;      // the asked ones, with the asked size
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
+  Look look;
   std::vector<const Exporter*> exporters;
   Limits limits;
   uint64_t bytes_max = 0;   // what the run may hold at its peak
@@ -36,7 +37,7 @@ std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool al
 // The scene file's name without its folder and .yaml; "scene" for standard input.
 std::string pick_stem(const std::string& scene_file, const std::string& basename);
 
-// S-pass-02-flat-mesh.png and the like.
+// S-pass-02-direct-flat-mesh.png and the like.
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
                               const Exporter& exporter);
 

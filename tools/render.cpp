@@ -7,6 +7,7 @@
 #include "export_report.h"
 #include "exposure.h"
 #include "files.h"
+#include "light_parts.h"
 #include "start.h"
 #include "stop.h"
 
@@ -37,6 +38,7 @@ struct Run {
   std::string folder;
   Solution solution;
   std::vector<FilmTable> films;  // a row a camera, once made
+  LightHistory light;
   RunReport report;
   std::vector<std::string> tables, pictures;  // paths of files, written or on their way
   JobQueue jobs;
@@ -63,6 +65,11 @@ bool wants(const Run& run, PixelKind pixels) {
   for (const Exporter* exporter : run.plan.exporters)
     if (exporter->pixels == pixels) return true;
   return false;
+}
+
+// After the passes so far, at the values of the films, W/m2.
+std::vector<Rgb> find_radiosity(const Run& run) {
+  return is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
 }
 
 void make_films(Run& run, const Tracer& tracer) {
@@ -116,8 +123,7 @@ Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb>
 void write_snapshots(Run& run, std::span<const uint32_t> passes) {
   if (passes.empty() || !run.plan.has_pictures()) return;
   Stopwatch watch;
-  const std::vector<Rgb> radiosity =
-      is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
+  const std::vector<Rgb> radiosity = pick_light(run.light, find_radiosity(run), run.plan.look.light);
   std::vector<Rgb> shown;
   if (wants(run, PixelKind::kDisplay)) shown = expose_values(radiosity, *run.scene.output.exposure_ev);
   for (size_t k = 0; k < run.films.size(); ++k)
@@ -172,6 +178,7 @@ void advance_all(Run& run, const Tracer& tracer) {
     last = converged || pass.pass == settings.pass_count_max;
     if (last) run.report.stopped_reason = converged ? "converged" : "passes";
     say_progress(run.talk, fmt::format("pass {} of {}", pass.pass, settings.pass_count_max));
+    if (pass.pass == 1 && run.plan.look.light != Light::kAll) run.light.first = find_radiosity(run);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
     while (due < snapshots.size() && (last || snapshots[due] == pass.pass)) ++due;

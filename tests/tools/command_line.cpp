@@ -32,7 +32,7 @@ TEST_CASE("render with all of its flags") {
                                               "--seed",    "7",           "--max-patches", "5000",
                                               "--format",  "exr,csv,exr", "--report",      "r.json",
                                               "--quiet",   "--color",     "never",         "--form-factors",
-                                              "recompute", "room.yaml"});
+                                              "recompute", "--light",     "indirect",      "room.yaml"});
   CHECK(options.verb == Verb::kRender);
   CHECK(options.scene == "room.yaml");
   CHECK(options.out == "lit");
@@ -43,6 +43,7 @@ TEST_CASE("render with all of its flags") {
   CHECK((*options.size)[1] == 48);
   CHECK(options.mesh);
   CHECK((options.shading == Shading::kFlat));
+  CHECK((options.look.light == Light::kIndirect));
   CHECK(options.exposure_ev == -3.5);
   CHECK(options.rays == 32u);
   CHECK(options.threads == 3u);
@@ -105,7 +106,8 @@ TEST_CASE("words in place of numbers: --snapshots all, --exposure auto") {
 }
 
 TEST_CASE("the command line may ask for more passes than a scene file may") {
-  const Options options = parse_command_line({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
+  const Options options =
+      parse_command_line({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
   CHECK(options.passes == 20000u);
   CHECK(options.snapshots == std::vector<uint32_t>{15000});
 }

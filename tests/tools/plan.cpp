@@ -73,6 +73,10 @@ TEST_CASE("names of pictures say pass, camera, shading and mesh") {
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 16, png) == "room-window-pass-16-flat-mesh.png");
   // An EXR holds numbers: no lines are drawn into it.
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 16, exr) == "room-window-pass-16-flat.exr");
+  options.look.light = Light::kIndirect;
+  plan = make_plan(scene, options);
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
+        "room-window-pass-02-indirect-flat-mesh.png");
 }
 
 TEST_CASE("flags are stronger than the scene") {
