@@ -4,6 +4,7 @@
 #include "dsl/scene.h"
 #include "engine/solve.h"
 #include "files.h"
+#include "picture.h"
 
 #include <cstdint>
 #include <span>
@@ -12,12 +13,6 @@
 #include <vector>
 
 namespace patchlight {
-
-// One colour a pixel, row by row from the top left.
-struct Picture {
-  uint32_t width = 0, height = 0;
-  std::vector<Rgb> pixels;
-};
 
 // What a format's pixels hold.
 enum class PixelKind {
