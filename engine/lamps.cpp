@@ -1,4 +1,4 @@
-// Emitting faces to lamps; a point and a lamp to a form factor.
+// Faces and cells to lamps; a point and a lamp to a form factor.
 #include "lamps.h"
 
 #include "lambert.h"
@@ -17,13 +17,24 @@ constexpr float kFarLamp = 0.05f;
 // distance)^4.
 constexpr float kNearbyLamp = 0.15f;
 
-Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face) {
+// 0 for a whole face.
+uint64_t make_cell_key(uint32_t cell, uint32_t level) {
+  return level == 0 ? 0 : mix_bits(uint64_t{cell} << 8 | level);
+}
+
+}  // namespace
+
+Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face, uint32_t cell,
+               uint32_t level) {
+  const CellFrame place = make_cell_frame(frames.triangle[face], cell, level);
   Lamp lamp{face,
-            cell_centre(frames, face, 0, 0),
+            place,
+            (uint64_t{face} + 1) * 0x9e3779b97f4a7c15ull ^ make_cell_key(cell, level),
+            cell_centre(frames, face, cell, level),
             faces.normal[face],
-            faces.corners[face],
+            level == 0 ? faces.corners[face] : cell_corners(frames, face, cell, level),
             faces.corner_count[face],
-            cell_area(frames, face, 0, 0),
+            cell_area(frames, face, cell, level),
             0,
             Vec2(0),
             frames.affine[face] && !frames.triangle[face],
@@ -31,13 +42,12 @@ Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t fa
   for (size_t a = 0; a < lamp.corner_count; ++a)
     for (size_t b = 0; b < a; ++b)
       lamp.diameter = std::max(lamp.diameter, distance(lamp.corners[a], lamp.corners[b]));
-  for (size_t k = 0; k < 4; ++k) lamp.gauss[k] = face_point(frames, face, {kGauss[k % 2], kGauss[k / 2]});
+  for (size_t k = 0; k < 4; ++k)
+    lamp.gauss[k] = face_point(frames, face, place.origin + place.size * Vec2(kGauss[k % 2], kGauss[k / 2]));
   if (!frames.affine[face])
     lamp.twist = {dot(frames.twist[face], frames.dual_u[face]), dot(frames.twist[face], frames.dual_v[face])};
   return lamp;
 }
-
-}  // namespace
 
 std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames) {
   std::vector<Lamp> lamps;

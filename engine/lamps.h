@@ -1,4 +1,4 @@
-// Faces that emit, and how much of a point's sky they fill.
+// Faces that emit, or cells that shoot, and how much of a point's sky they fill.
 #pragma once
 
 #include "cell.h"
@@ -9,8 +9,11 @@ namespace patchlight {
 
 inline constexpr float kGauss[2] = {0.21132487f, 0.78867513f};  // Gauss's points of [0, 1] for two
 
+// A planar piece of a face that sends light: the whole face, or a cell of it.
 struct Lamp {
   uint32_t face;
+  CellFrame cell;  // its place on the face
+  uint64_t key;    // of the samples on it
   Vec3 centre, normal;
   std::array<Vec3, 4> corners;
   uint32_t corner_count;
@@ -20,6 +23,8 @@ struct Lamp {
   std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
 };
 
+Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face, uint32_t cell = 0,
+               uint32_t level = 0);
 // All faces that emit, in their order.
 std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames);
 
