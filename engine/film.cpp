@@ -21,6 +21,12 @@ constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look thro
 
 struct Pinhole {
   Vec3 eye, right, up, forward;  // right and up are half the picture's width and height at distance 1
+  // Unit, through a point of the picture, in pixels from the top left.
+  Vec3 find_direction(Vec2 at, const View& view) const {
+    const float x = 2 * at.x / static_cast<float>(view.width) - 1;
+    const float y = 1 - 2 * at.y / static_cast<float>(view.height);
+    return normalize(forward + x * right + y * up);
+  }
 };
 
 Pinhole make_pinhole(const View& view) {
@@ -30,10 +36,11 @@ Pinhole make_pinhole(const View& view) {
   return {view.eye, right * (half_height * aspect), cross(right, forward) * half_height, forward};
 }
 
-// One sample of the film: the element seen and where; kNone: background.
+// One sample of the film: the element seen, where, and how far along the ray; kNone: background.
 struct Seen {
   uint32_t element[kPacketSize];
   Vec2 uv[kPacketSize];
+  float distance[kPacketSize];
 };
 
 uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t cell, uint32_t guess) {
@@ -50,9 +57,7 @@ uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole,
               const Tracer& tracer) {
   HitPacket packet;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const float x = 2 * at[k].x / static_cast<float>(view.width) - 1;
-    const float y = 1 - 2 * at[k].y / static_cast<float>(view.height);
-    const Vec3 direction = normalize(pinhole.forward + x * pinhole.right + y * pinhole.up);
+    const Vec3 direction = pinhole.find_direction(at[k], view);
     packet.ray.origin_x[k] = pinhole.eye.x, packet.ray.origin_y[k] = pinhole.eye.y;
     packet.ray.origin_z[k] = pinhole.eye.z;
     packet.ray.direction_x[k] = direction.x, packet.ray.direction_y[k] = direction.y;
@@ -79,6 +84,7 @@ uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole,
       }
       active &= ~(1u << k);
       if (face == kNone) continue;
+      seen.distance[k] = r.far_distance[k];
       seen.uv[k] = find_face_parameters(frames, face, pinhole.eye + r.far_distance[k] * direction);
       seen.element[k] = guess =
           find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
@@ -234,7 +240,7 @@ std::vector<float> forecast_elements(const Solution& s, const FaceTable& faces) 
 
 FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view,
                     const FilmSettings& settings) {
-  assert(s.frozen);
+  assert(s.frozen || !settings.smooth);
   assert(view.width > 0 && view.height > 0);
   const Pinhole pinhole = make_pinhole(view);
   const std::vector<float> forecast = forecast_elements(s, faces);
@@ -306,6 +312,33 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
   film.ray_count = ray_count;
   if (settings.mesh_lines) film.line_cover = find_line_cover(view, pinhole, s, faces, tracer);
   return film;
+}
+
+CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view) {
+  const Pinhole pinhole = make_pinhole(view);
+  const size_t pixel_count = size_t{view.width} * view.height;
+  CentreTable centres;
+  centres.element.assign(pixel_count, kNone);
+  centres.depth.assign(pixel_count, std::numeric_limits<float>::infinity());
+  for_rows((pixel_count + kPacketSize - 1) / kPacketSize, 16, [&](size_t begin, size_t end) {
+    Seen seen;
+    Vec2 at[kPacketSize];
+    for (size_t packet = begin; packet < end; ++packet) {
+      const size_t first = packet * kPacketSize, last = std::min(first + kPacketSize, pixel_count);
+      for (size_t k = 0; k < kPacketSize; ++k) {
+        const size_t pixel = std::min(first + k, last - 1);
+        at[k] = Vec2(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width)) + 0.5f;
+      }
+      look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+      for (size_t k = 0; first + k < last; ++k) {
+        if (seen.element[k] == kNone) continue;
+        centres.element[first + k] = seen.element[k];
+        centres.depth[first + k] =
+            seen.distance[k] * dot(pinhole.find_direction(at[k], view), pinhole.forward);
+      }
+    }
+  });
+  return centres;
 }
 
 std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values) {

@@ -162,6 +162,23 @@ void add_render_flags(CLI::App& app, Options& options) {
   add_choice(app, "--light", kLightNames,
              "direct: emission and the light of pass 1; indirect: what later passes added; all unless given",
              [&](size_t choice) { options.look.light = static_cast<Light>(choice); });
+  add_choice(app, "--tone", kToneNames, "filmic: soft highlights; clip unless given",
+             [&](size_t choice) { options.look.tone = static_cast<Tone>(choice); });
+  add_choice(app, "--false-color", kFalseColorNames,
+             "numbers as colours with a legend: radiosity, what the last pass added, how often a patch was "
+             "halved, why it was split",
+             [&](size_t choice) { options.look.false_color = static_cast<FalseColor>(choice); });
+  add_switch(app, "--storyboard", options.storyboard,
+             "the snapshots side by side, with labels, and below what was added from one to the next");
+  add_value(app, "--animation", "passes|rounds,...", "GIFs of all passes, of the rounds of refinement",
+            [&](const std::string& text) {
+              for (const std::string& series : split_list(text))
+                (parse_choice("--animation", series, {"passes", "rounds"}) == 0 ? options.animate_passes
+                                                                                : options.animate_rounds) =
+                    true;
+            });
+  add_choice(app, "--scale", kScaleNames, "of false colours in W/m2; auto unless given",
+             [&](size_t choice) { options.look.scale = static_cast<ScaleKind>(choice); });
   add_value(app, "--format", fmt::format("{},...", fmt::join(exporter_formats(), "|")),
             "files to write; png unless given",
             [&](const std::string& text) { options.formats = parse_formats(text); });

@@ -8,7 +8,8 @@ namespace {
 
 constexpr Exporter kExporters[] = {
     {"png", PixelKind::kDisplay, encode_png, nullptr},
-    {"exr", PixelKind::kRadiosity, encode_exr, nullptr},
+    {"exr", PixelKind::kLayers, encode_exr, nullptr},
+    {"hdr", PixelKind::kRadiosity, encode_hdr, nullptr},
     {"csv", PixelKind::kNoPixels, nullptr, export_patches_csv},
 };
 

@@ -19,6 +19,7 @@ enum class PixelKind {
   kNoPixels,   // not a picture: a file of the whole solution, written once
   kDisplay,    // linear light, exposed, 0..1 is what a display shows
   kRadiosity,  // mean radiosity, W/m2, no limit
+  kLayers,     // the same, and channels of its parts and of what is seen
 };
 
 struct Exporter {
@@ -35,8 +36,10 @@ const Exporter& find_exporter(std::string_view format);
 
 // export_png.cpp: 8-bit sRGB. Pixels outside 0..1 are clipped.
 std::string encode_png(const Picture& picture);
-// export_exr.cpp: float32 linear R, G, B.
+// export_exr.cpp: float32 linear R, G, B, and the picture's channels.
 std::string encode_exr(const Picture& picture);
+// export_hdr.cpp: Radiance HDR, about one part in 200 exact.
+std::string encode_hdr(const Picture& picture);
 // export_csv.cpp: a row a patch, positions and areas in the file's units.
 void export_patches_csv(NewFile& file, const Scene& scene, const Solution& solution);
 

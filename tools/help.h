@@ -23,6 +23,8 @@ Examples:
   patchlight render room.yaml --passes 4 --snapshots all --size 640x480
   patchlight render room.yaml -D w=8 --set solver.threshold=0.05
   patchlight render room.yaml --camera door --exposure -3.5 --mesh
+  patchlight render room.yaml --storyboard --animation passes,rounds     for slides
+  patchlight render room.yaml --false-color radiosity                    W/m2 as colours, with a legend
   patchlight render room.yaml --format exr,csv      numbers instead of pictures
   generate_scene | patchlight render - -o lit       a scene from standard input
 

@@ -98,4 +98,12 @@ void draw_text(Picture& picture, float x, float y, std::string_view text, const 
                [&](int glyph, float pen) { draw_glyph(picture, glyph, x + pen, y, letters, bitmap); });
 }
 
+void draw_label(Picture& picture, std::string_view text) {
+  const float size = std::clamp(static_cast<float>(picture.height) / 30, 9.0f, 40.0f);
+  const auto em = static_cast<uint32_t>(size);
+  const auto width = static_cast<uint32_t>(measure_text(text, size)) + em;
+  fill_box(picture, {em / 2, em / 2, width, em * 3 / 2}, Rgb(0.01f), 0.92f);
+  draw_text(picture, static_cast<float>(em), 1.6f * size, text, {size, Rgb(0.9f)});
+}
+
 }  // namespace patchlight

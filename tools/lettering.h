@@ -24,4 +24,7 @@ float measure_text(std::string_view text, float size);
 // lies outside of the picture is left out.
 void draw_text(Picture& picture, float x, float y, std::string_view text, const Letters& letters);
 
+// Draws a line of text on a dark ground at the upper left.
+void draw_label(Picture& picture, std::string_view text);
+
 }  // namespace patchlight

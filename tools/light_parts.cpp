@@ -23,4 +23,14 @@ std::vector<Rgb> pick_light(const LightHistory& history, std::span<const Rgb> no
   return values;
 }
 
+std::vector<Rgb> find_added(const LightHistory& history) {
+  std::vector<Rgb> added = history.now;
+  if (history.before.empty()) return added;
+  assert(history.before.size() == added.size());
+  for_rows(added.size(), 16384, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) added[k] = max(added[k] - history.before[k], Rgb(0));
+  });
+  return added;
+}
+
 }  // namespace patchlight

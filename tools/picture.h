@@ -4,14 +4,23 @@
 #include "engine/vector.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace patchlight {
+
+// What else a format may hold of each pixel: values or whole numbers.
+struct Channel {
+  std::string name;
+  std::vector<float> values;
+  std::vector<uint32_t> numbers;
+};
 
 // Row by row from the top left.
 struct Picture {
   uint32_t width = 0, height = 0;
   std::vector<Rgb> pixels;
+  std::vector<Channel> channels = {};
 };
 
 // Pixels from the top left.

@@ -1,6 +1,7 @@
 // Options over scene -> Plan, and the limits.
 #include "plan.h"
 
+#include "animation.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
 #include "engine/film.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr uint64_t kFilmBytesPerPixel = 160;
 // Colours, bytes and the compressor's table, of two pictures on their way to a file.
 constexpr uint64_t kPictureBytesPerPixel = 64;
+// Two pictures with their channels, each as columns of its own, as the library's blocks and as its file.
+constexpr uint64_t kLayerBytesPerPixel = 340;
 // What is likely: the film itself; the same and pictures in the making; the program with its libraries.
 constexpr double kFilmBytesLikely = 44, kPictureBytesLikely = 60, kProgramBytesLikely = 12e6;
 constexpr double kPictureSeconds = 0.1e-6;  // a pixel and snapshot: shown and encoded
@@ -27,6 +30,23 @@ constexpr double kShareOfThreads = 0.95;    // of their number
 template <class Value, class Asked>
 void override_with(Value& value, const std::optional<Asked>& asked) {
   if (asked) value = static_cast<Value>(*asked);
+}
+
+// What is kept for pictures of several passes: the light of some of them, and frames.
+uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
+  // Somewhat more corners than patches, a colour each; a film of a round's patches with its lines.
+  constexpr uint64_t kLightBytesPerPatch = 15, kRoundsMost = 16;
+  const bool parts = plan.look.light != Light::kAll ||
+                     std::any_of(plan.exporters.begin(), plan.exporters.end(), [](const Exporter* exporter) {
+                       return exporter->pixels == PixelKind::kLayers;
+                     });
+  const uint64_t kept = (parts ? 1u : 0u) + (plan.storyboard ? 1u : 0u) +
+                        (plan.look.false_color == FalseColor::kResidual ? 2u : 0u);
+  uint64_t bytes = kept * kLightBytesPerPatch * scene.solver.patch_count_max;
+  const uint64_t frames =
+      (plan.animate_passes ? scene.solver.pass_count_max : 0) + (plan.animate_rounds ? kRoundsMost : 0);
+  for (const Camera& camera : plan.cameras) bytes += frames * count_frame_bytes(camera.width, camera.height);
+  return bytes;
 }
 
 std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
@@ -55,7 +75,8 @@ std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
 }  // namespace
 
 bool Plan::has_pictures() const {
-  return std::any_of(exporters.begin(), exporters.end(),
+  return storyboard || animate_passes ||
+         std::any_of(exporters.begin(), exporters.end(),
                      [](const Exporter* exporter) { return exporter->pixels != PixelKind::kNoPixels; });
 }
 
@@ -111,6 +132,9 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
   plan.look = options.look;
+  plan.storyboard = options.storyboard;
+  plan.animate_passes = options.animate_passes;
+  plan.animate_rounds = options.animate_rounds;
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
   plan.limits = options.load.limits;
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
@@ -122,15 +146,27 @@ Plan make_plan(Scene& scene, const Options& options) {
   return plan;
 }
 
+std::string name_camera(const Plan& plan, const Camera& camera) {
+  return plan.cameras_named ? plan.stem + "-" + camera.name : plan.stem;
+}
+
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
                               const Exporter& exporter) {
-  const bool flat = scene.output.shading == Shading::kFlat;
-  const bool mesh = plan.mesh && exporter.pixels == PixelKind::kDisplay;
-  const std::string light =
-      plan.look.light == Light::kAll ? "" : "-" + kLightNames[static_cast<size_t>(plan.look.light)];
-  return fmt::format("{}{}{}-pass-{:02}{}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
-                     plan.cameras_named ? camera.name : "", pass, light, flat ? "-flat" : "",
-                     mesh ? "-mesh" : "", exporter.format);
+  const bool display = exporter.pixels == PixelKind::kDisplay, mesh = plan.mesh && display;
+  // Of levels and reasons there are flat pictures only, and beside them only flat numbers.
+  const bool of_patches = is_of_patches(plan.look.false_color);
+  const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
+  const auto name = [](bool named, const std::vector<std::string>& names, auto choice) {
+    return named ? "-" + names[static_cast<size_t>(choice)] : "";
+  };
+  const Look& look = plan.look;
+  const bool colored = display && look.false_color != FalseColor::kOff;
+  const bool lit = !colored || look.false_color == FalseColor::kRadiosity;
+  return fmt::format("{}-pass-{:02}{}{}{}{}{}.{}", name_camera(plan, camera), pass,
+                     name(lit && look.light != Light::kAll, kLightNames, look.light),
+                     name(colored, kFalseColorNames, look.false_color),
+                     name(display && !colored && look.tone != Tone::kClip, kToneNames, look.tone),
+                     flat ? "-flat" : "", mesh ? "-mesh" : "", exporter.format);
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
@@ -142,7 +178,10 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
     pixels_largest = std::max(pixels_largest, pixels);
     bytes += pixels * kFilmBytesPerPixel;
   }
-  return bytes + pixels_largest * kPictureBytesPerPixel;
+  bytes += pixels_largest * kPictureBytesPerPixel + forecast_series_bytes(scene, plan);
+  for (const Exporter* exporter : plan.exporters)
+    if (exporter->pixels == PixelKind::kLayers) bytes += pixels_largest * kLayerBytesPerPixel;
+  return bytes;
 }
 
 RunForecast forecast_run(const Scene& scene, const Plan& plan) {

@@ -16,6 +16,7 @@ struct Plan {
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
   Look look;
+  bool storyboard = false, animate_passes = false, animate_rounds = false;
   std::vector<const Exporter*> exporters;
   Limits limits;
   uint64_t bytes_max = 0;   // what the run may hold at its peak
@@ -36,6 +37,9 @@ std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool al
 
 // The scene file's name without its folder and .yaml; "scene" for standard input.
 std::string pick_stem(const std::string& scene_file, const std::string& basename);
+
+// S, or S-CAMERA where the scene has several.
+std::string name_camera(const Plan& plan, const Camera& camera);
 
 // S-pass-02-direct-flat-mesh.png and the like.
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,

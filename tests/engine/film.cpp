@@ -181,3 +181,48 @@ TEST_CASE("film: one view and seed give one film, whatever the threads") {
   CHECK(a.value == b.value);
   CHECK(a.weight == b.weight);
 }
+
+TEST_CASE("film: the ray through a pixel's centre tells the element and the depth along the view") {
+  FaceTable faces;
+  add_quad(faces, {-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0},
+           make_surface(1, 0.5f));
+  const Run run = run_scene(faces, {}, 1);
+  View view = make_view({0, 0, 2}, Vec3(0), 9, 5);
+  view.fov_degrees = static_cast<float>(2 * std::atan(0.3) * 180 / std::numbers::pi);
+  const CentreTable centres = find_centres(run.solution, faces, run.tracer, view);
+  REQUIRE(centres.element.size() == 45);
+  REQUIRE(centres.depth.size() == 45);
+  for (uint32_t pixel = 0; pixel < 45; ++pixel) {
+    // The picture is 1.2 high at the square, a pixel 0.24.
+    const float x = 0.24f * (static_cast<float>(pixel % 9) - 4),
+                y = -0.24f * (static_cast<float>(pixel / 9) - 2);
+    if (std::abs(x) > 0.5f) {
+      CHECK(centres.element[pixel] == kNone);
+      CHECK(std::isinf(centres.depth[pixel]));
+      continue;
+    }
+    // The square is flat across the view: one depth everywhere.
+    CHECK(centres.depth[pixel] == doctest::Approx(2).epsilon(1e-5));
+    const PatchTable& elements = run.solution.elements;
+    const uint32_t row = centres.element[pixel];
+    REQUIRE(row < elements.size());
+    const auto corners =
+        cell_corners(run.solution.frames, elements.face[row], elements.cell[row], elements.level[row]);
+    CHECK(x >= corners[0].x - 1e-5f);
+    CHECK(x <= corners[2].x + 1e-5f);
+    CHECK(y >= corners[0].y - 1e-5f);
+    CHECK(y <= corners[2].y + 1e-5f);
+  }
+}
+
+TEST_CASE("film: a flat one can be made before the mesh is final") {
+  const FaceTable faces = make_room(true);
+  const Tracer tracer = make_tracer(faces);
+  Solution solution = make_solution(faces, tracer, {});
+  const View view = make_view({0.1f, 0.1f, 0.35f}, {0.3f, 0.25f, 0.05f}, 16, 12);
+  do {
+    const FilmTable film = make_film(solution, faces, tracer, view, {false, true, 1});
+    check_shape(film, view, solution.elements.size());
+    CHECK(film.line_cover.size() == 16 * 12);
+  } while (refine(solution, faces, tracer, {}));
+}

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 using namespace patchlight;
 using namespace patchlight::testing;
@@ -54,4 +55,66 @@ TEST_CASE("pictures of direct and of indirect light add up to those of all light
     CHECK(direct_sum > 0);
     CHECK((indirect_sum > 0) == (std::string(pass) == "16"));
   }
+}
+
+TEST_CASE("looks are named in the files, and differ") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  std::vector<std::string> pictures;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> looks = {
+      {{}, ""},
+      {{"--tone", "filmic"}, "-filmic"},
+      {{"--false-color", "radiosity"}, "-radiosity"},
+      {{"--false-color", "radiosity", "--light", "direct", "--scale", "linear"}, "-direct-radiosity"},
+      {{"--false-color", "residual"}, "-residual"},
+      {{"--false-color", "level"}, "-level"},
+      {{"--false-color", "reason", "--mesh"}, "-reason-mesh"},
+  };
+  for (const auto& [flags, suffix] : looks) {
+    const ChildResult result = run_child(render_words(folder / "box.yaml", folder / "lit", flags));
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.err.find("bad-radiosity") == std::string::npos);
+    const std::string picture = read_bytes(folder / ("lit/box-pass-16" + suffix + ".png"));
+    CHECK(is_whole_png(picture));
+    for (const std::string& other : pictures) CHECK(picture != other);
+    pictures.push_back(picture);
+  }
+}
+
+TEST_CASE("a storyboard and animations are written beside the pictures") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result =
+      run_child(render_words(folder / "box.yaml", folder / "lit",
+                             {"--storyboard", "--animation", "passes,rounds", "--format", "csv"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") ==
+        "box-passes.gif box-patches.csv box-report.json box-rounds.gif box-storyboard.png");
+  CHECK(is_whole_png(read_bytes(folder / "lit/box-storyboard.png")));
+  const Json json = Json::parse(read_bytes(folder / "lit/box-report.json"));
+  // A graphic control extension a frame.
+  const auto count_frames = [&](const std::string& path) {
+    const std::string bytes = read_bytes(folder / path), mark("\x21\xf9\x04", 3);
+    size_t count = 0;
+    for (size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) ++count;
+    return count;
+  };
+  CHECK(count_frames("lit/box-passes.gif") == json["passes"].size());
+  CHECK(count_frames("lit/box-rounds.gif") == json["rounds"].size());
+}
+
+TEST_CASE("every layer of an EXR and an HDR are written in one run") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result = run_child(
+      render_words(folder / "box.yaml", folder / "lit", {"--format", "exr,hdr,csv", "--snapshots", "2"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") == "box-pass-02.exr box-pass-02.hdr box-patches.csv box-report.json");
+  const std::string file = read_bytes(folder / "lit/box-pass-02.exr");
+  for (const char* name :
+       {"direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B", "id", "Z"})
+    CHECK(file.find(std::string(name) + '\0') != std::string::npos);
 }

@@ -238,3 +238,18 @@ TEST_CASE("numbers are read whole") {
   CHECK(parse_count("--seed", "18446744073709551615", 0, ~uint64_t{0}) == ~uint64_t{0});
   CHECK_THROWS_AS(parse_count("--seed", "18446744073709551616", 0, ~uint64_t{0}), UserError);
 }
+
+TEST_CASE("flags of looks and of pictures of the whole run") {
+  const Options options =
+      parse_command_line({"render", "a.yaml", "--tone", "filmic", "--false-color", "residual", "--scale",
+                          "log", "--storyboard", "--animation", "rounds,passes"});
+  CHECK((options.look.tone == Tone::kFilmic));
+  CHECK((options.look.false_color == FalseColor::kResidual));
+  CHECK((options.look.scale == ScaleKind::kLog));
+  CHECK(options.storyboard);
+  CHECK(options.animate_passes);
+  CHECK(options.animate_rounds);
+  CHECK(!parse_command_line({"render", "a.yaml", "--animation", "rounds"}).animate_passes);
+  CHECK(has(find_mistake({"render", "a.yaml", "--animation", "pases"}), "did you mean 'passes'?"));
+  CHECK(has(find_mistake({"render", "a.yaml", "--false-color", "levels"}), "did you mean 'level'?"));
+}

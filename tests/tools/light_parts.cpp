@@ -25,3 +25,11 @@ TEST_CASE("before pass 1 all light is direct") {
   CHECK(pick_light({}, now, Light::kDirect) == now);
   CHECK(pick_light({}, now, Light::kIndirect) == std::vector<Rgb>{Rgb(0)});
 }
+
+TEST_CASE("what the last pass added is emission at first, and never negative") {
+  LightHistory history;
+  history.now = {Rgb(0), Rgb(5)};
+  CHECK(find_added(history) == history.now);
+  history.before = {Rgb(1, 0, 0), Rgb(2)};
+  CHECK(find_added(history) == std::vector<Rgb>{Rgb(0), Rgb(3)});
+}

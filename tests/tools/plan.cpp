@@ -77,6 +77,20 @@ TEST_CASE("names of pictures say pass, camera, shading and mesh") {
   plan = make_plan(scene, options);
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
         "room-window-pass-02-indirect-flat-mesh.png");
+  options.look.tone = Tone::kFilmic;
+  plan = make_plan(scene, options);
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
+        "room-window-pass-02-indirect-filmic-flat-mesh.png");
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, exr) == "room-window-pass-02-indirect-flat.exr");
+  options.look.false_color = FalseColor::kRadiosity;
+  plan = make_plan(scene, options);
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
+        "room-window-pass-02-indirect-radiosity-flat-mesh.png");
+  // Levels do not depend on light or shading.
+  options.look.false_color = FalseColor::kLevel;
+  plan = make_plan(scene, options);
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) == "room-window-pass-02-level-mesh.png");
+  CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, exr) == "room-window-pass-02-indirect-flat.exr");
 }
 
 TEST_CASE("flags are stronger than the scene") {
@@ -204,4 +218,27 @@ TEST_CASE("counts and bytes read the same in every locale") {
   CHECK(format_seconds(180) == "3 minutes");
   CHECK(format_seconds(9000) == "2.5 hours");
   CHECK(format_seconds(1e6) == "11.6 days");
+}
+
+TEST_CASE("what is kept for pictures of several passes counts as memory") {
+  Scene scene = make_scene();
+  Options options;
+  uint64_t before = forecast_run_bytes(scene, make_plan(scene, options));
+  const auto check_more = [&](uint64_t least) {
+    const uint64_t now = forecast_run_bytes(scene, make_plan(scene, options));
+    CHECK(now >= before + least);
+    before = now;
+  };
+  options.animate_passes = true;
+  check_more(uint64_t{scene.solver.pass_count_max} * 960 * 720 * 3);
+  options.animate_rounds = true;
+  check_more(10 * 960 * 720 * 3);
+  options.storyboard = true;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.look.light = Light::kDirect;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.look.false_color = FalseColor::kResidual;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.formats = {"exr"};
+  check_more(960 * 720 * 11 * sizeof(float));
 }
