@@ -3,6 +3,7 @@
 // 100,820 faces of furniture, on one core of an AMD EPYC.
 #include "forecast.h"
 
+#include "polygon_factors.h"
 #include "rows.h"
 #include "solve.h"
 
@@ -91,6 +92,38 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, 
   forecast.bytes = face_count * kFaceBytes + forecast.elements * kElementBytes +
                    forecast.patches * kPatchBytes + (settings.keep_rows ? row_rays * kRayBytes : 0);
   return forecast;
+}
+
+namespace {
+
+// The elements that a budget leads to, for solvers whose cost grows with all pairs of them.
+uint64_t count_elements_most(const FaceTable& faces, const SolverSettings& settings,
+                             uint64_t starting_patches) {
+  return std::max({starting_patches, settings.patch_count_max, uint64_t{faces.size()}});
+}
+
+}  // namespace
+
+uint64_t forecast_matrix_bytes(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches) {
+  const uint64_t n = count_elements_most(faces, settings, starting_patches);
+  // Twenty times the square must not overflow.
+  if (n >= uint64_t{1} << 29) return ~uint64_t{0} / 4;
+  return n * n * sizeof(double) + forecast_factor_bytes(n, n);
+}
+
+double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches) {
+  constexpr double kPair = 4e-6, kMultiply = 1.2e-10;
+  const auto n = static_cast<double>(count_elements_most(faces, settings, starting_patches));
+  return n * n * kPair + n * n * n * kMultiply;
+}
+
+double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
+                                 uint64_t starting_patches) {
+  constexpr double kShotsAPatch = 5, kElement = 1.5e-7;
+  const Forecast mesh = forecast_solve(faces, settings, starting_patches);
+  return kShotsAPatch * mesh.patches * mesh.elements * kElement;
 }
 
 double forecast_film_seconds(const FaceTable& faces, double pixels) {

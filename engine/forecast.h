@@ -18,6 +18,15 @@ struct Forecast {
 };
 Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
 
+// What the solvers `matrix` and `shooting` take beside that; arguments as forecast_solve(). Very rough:
+// seconds depend on what stands between the elements, and on how much they reflect.
+uint64_t forecast_matrix_bytes(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches);
+double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches);
+double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
+                                 uint64_t starting_patches);
+
 // Of one picture's film.
 double forecast_film_seconds(const FaceTable& faces, double pixels);
 

@@ -17,6 +17,8 @@ constexpr uint32_t kBlock = 16;  // receivers
 // Rays of a row for one that is aimed: few sources carry most of what is aimed at, and rows help with all of
 // it.
 constexpr uint32_t kRowRaysPerAimed = 4;
+// A density that no other comes near, and whose square is finite.
+constexpr float kWithin = 1e15f;
 
 uint32_t find_element(const Elements& elements, uint32_t patch, uint32_t cell) {
   return find_leaf_between(elements.table, elements.first[patch], elements.first[patch + 1], cell);
@@ -52,9 +54,7 @@ void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3
 
 // Power heuristic: the weight of a sample drawn with density `own` against the other way to draw it, as if
 // both ways had as many: an aimed ray is worth several of a row's, for aimed ones are spread more evenly over
-// what they see (measured: weighing by their numbers leaves 4 % more error in the sun room). Both ways take
-// the densities from the patch's centre, whatever point of it a ray starts from: weights need only sum to
-// one.
+// what they see (measured: weighing by their numbers leaves 4 % more error in the sun room).
 float heuristic(float own, float other) {
   return own > 0 ? own * own / (own * own + other * other) : 0;  // dark places may have no density either way
 }
@@ -84,10 +84,23 @@ struct Place {
   bool shared;     // has others
   CellFrame cell;  // of its first patch
   Vec3 centre, normal;
+  float radius;    // of a ball about the centre that holds it
   uint32_t rays;   // of its row
   uint32_t aimed;  // rays at sources; half as many more find out which of these its block sees
   float share_valid;
 };
+
+float find_radius(uint32_t row, const Rows& rows) {
+  const ReceiverTable& receivers = rows.receivers;
+  float radius = 0;
+  for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k) {
+    const uint32_t p = receivers.patch[k];
+    for (const Vec3& corner :
+         cell_corners(rows.frames, rows.patches.face[p], rows.patches.cell[p], rows.patches.level[p]))
+      radius = std::max(radius, distance(corner, receivers.centre[row]));
+  }
+  return radius;
+}
 
 Place make_place(uint32_t row, const Rows& rows) {
   const ReceiverTable& receivers = rows.receivers;
@@ -100,6 +113,7 @@ Place make_place(uint32_t row, const Rows& rows) {
       make_cell_frame(rows.frames.triangle[patches.face[patch]], patches.cell[patch], patches.level[patch]),
       receivers.centre[row],
       receivers.normal[row],
+      find_radius(row, rows),
       ray_count,
       std::max(ray_count / kRowRaysPerAimed / kPacketSize, 1u) * kPacketSize,
       static_cast<float>(rows.hits.valid_count(row)) / static_cast<float>(ray_count)};
@@ -127,6 +141,16 @@ float form_factor_kernel(Vec3 way, Vec3 normal, Vec3 source_normal) {
   const float squared = dot(way, way);
   return std::max(dot(way, normal), 0.0f) * std::max(-dot(way, source_normal), 0.0f) /
          (kPi * std::max(squared * squared, 1e-30f));
+}
+
+// The density of a row's rays at a target, as the heuristic takes it: one for all points that a ray may start
+// from, since weights need only sum to one. It is about the largest that any of them has: beside a patch that
+// touches a bright one, aimed rays between near points would weigh without bound, and are left to the row.
+float find_row_density(const Place& place, Vec3 target, Vec3 source_normal) {
+  const Vec3 way = target - place.centre;
+  const float kernel = form_factor_kernel(way, place.normal, source_normal);
+  const float squared = dot(way, way), nearest = std::sqrt(squared) - place.radius;
+  return nearest > 0 ? kernel * squared / (nearest * nearest) : kWithin;
 }
 
 // Points on a source are picked with a density proportional to what is sent from there: per area, once the
@@ -186,7 +210,7 @@ void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares&
     const float kernel = form_factor_kernel(target - origin, from.normal, sources.normal[source]);
     const float density =
         shares.share[source] * find_density(sources, source, b.elements.table, point.element, b.sent);
-    const float row_density = form_factor_kernel(target - place.centre, place.normal, sources.normal[source]);
+    const float row_density = find_row_density(place, target, sources.normal[source]);
     packet.value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
     packet.source[k] = source;
     packet.element[k] = point.element;
@@ -289,11 +313,11 @@ Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
       const uint32_t face = b.rows.patches.face[patch];
       const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[k], kLevelMax);
       const Vec2 uv = end.origin + end.size * 0.5f;
-      const float kernel = form_factor_kernel(face_point(frames, face, uv) - place.centre, place.normal,
-                                              b.sources.normal[source]);
+      const float row_density =
+          find_row_density(place, face_point(frames, face, uv), b.sources.normal[source]);
       const float density =
           shares.share[source] * find_density(b.sources, source, b.elements.table, element, b.sent);
-      weight = heuristic(kernel, density);
+      weight = heuristic(row_density, density);
     }
     sum += weight * b.sent[element];
   }

@@ -9,20 +9,26 @@ namespace {
 constexpr uint32_t kEmissionRays = 1u << 16;  // for all lamps together
 
 struct Shares {
-  double nothing = 0, back = 0;  // of what a face sends; the rest lands on lit sides
+  double nothing = 0, back = 0;  // of what a cell sends; the rest lands on lit sides
 };
 
-// Where a face's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
-Shares find_emission_shares(uint32_t face, uint32_t rays, const FaceTable& faces,
+// What sends emission: a face, or a part of it.
+struct Sender {
+  uint32_t face, cell, level;
+};
+
+// Where a sender's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
+Shares find_emission_shares(const Sender& sender, uint32_t rays, const FaceTable& faces,
                             const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed) {
+  const auto [face, cell, level] = sender;
   const RowGrid grid = make_row_grid(rays);
   const Frame frame = make_frame(faces.normal[face]);
-  const uint64_t key = make_row_key(seed, face, 0, 0, kRowEmission);
+  const uint64_t key = make_row_key(seed, face, cell, level, kRowEmission);
   std::vector<uint32_t> nothing(grid.packet_count()), back(grid.packet_count());
   for_rows(grid.packet_count(), 16, [&](size_t begin, size_t end) {
     HitPacket packet;
     for (size_t tile = begin; tile < end; ++tile) {
-      make_row_packet(packet, frames, frame, face, 0, 0, key, grid, static_cast<uint32_t>(tile));
+      make_row_packet(packet, frames, frame, face, cell, level, key, grid, static_cast<uint32_t>(tile));
       find_hits(tracer, packet, 0xffff);
       for (uint32_t k = 0; k < kPacketSize; ++k) {
         const RayPacket& r = packet.ray;
@@ -43,6 +49,27 @@ Shares find_emission_shares(uint32_t face, uint32_t rays, const FaceTable& faces
   return shares;
 }
 
+// Shooting: has the patch sent its emission yet?
+bool is_sent(const Solution& s, size_t patch) { return s.shots.empty() || s.shots[patch] > 0; }
+
+// Faces whose emission is sent; of those that shots have sent in part, the patches that were.
+std::vector<Sender> find_senders(const Solution& s, const FaceTable& faces) {
+  std::vector<Sender> senders;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (largest(faces.emission[f]) <= 0) continue;
+    const uint32_t first = s.patches.face_first[f], last = s.patches.face_first[f + 1];
+    uint32_t sent = 0;
+    for (uint32_t p = first; p < last; ++p) sent += is_sent(s, p);
+    if (sent == last - first) {
+      senders.push_back({f, 0, 0});
+      continue;
+    }
+    for (uint32_t p = first; p < last; ++p)
+      if (is_sent(s, p)) senders.push_back({f, s.patches.cell[p], s.patches.level[p]});
+  }
+  return senders;
+}
+
 }  // namespace
 
 PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const Tracer& tracer,
@@ -56,12 +83,12 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
     ledger.unshot = ledger.emitted;
     return ledger;
   }
-  for (uint32_t f = 0; f < faces.size(); ++f) {
-    const DRgb power = double{cell_area(s.frames, f, 0, 0)} * DRgb(faces.emission[f]);
+  for (const Sender& sender : find_senders(s, faces)) {
+    const auto [face, cell, level] = sender;
+    const DRgb power = double{cell_area(s.frames, face, cell, level)} * DRgb(faces.emission[face]);
     const double share = (power.r + power.g + power.b) / std::max(emitted_sum, 1e-300);
-    if (share <= 0) continue;
     const auto rays = static_cast<uint32_t>(std::clamp(share * kEmissionRays, 256.0, double{kEmissionRays}));
-    const Shares shares = find_emission_shares(f, rays, faces, s.frames, tracer, settings.seed);
+    const Shares shares = find_emission_shares(sender, rays, faces, s.frames, tracer, settings.seed);
     ledger.escaped += shares.nothing * power;
     ledger.absorbed += shares.back * power;
   }
@@ -79,6 +106,9 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
     }
     ledger.unshot += unshot;
     ledger.absorbed += (DRgb(1) - rho) * received;
+    // What is unshot of the light that was received.
+    if (!is_sent(s, p))
+      unshot -= double{s.patches.area[p]} * s.patches.exposed[p] * DRgb(faces.emission[s.patches.face[p]]);
     if (valid > 0) {
       ledger.escaped += (rho * received - unshot) * (nothing / valid);
       ledger.absorbed += (rho * received - unshot) * (back / valid);

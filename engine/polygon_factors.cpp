@@ -261,8 +261,12 @@ bool advance(FactorTable& table, const FactorScene& scene, const FaceTable& face
   return last < table.size();
 }
 
+double find_exchange(const FactorTable& table, size_t i, size_t j) {
+  return table.exchange[find_entry(table.size(), i, j)];
+}
+
 double find_factor(const FactorTable& table, uint32_t i, uint32_t j) {
-  return table.area[i] > 0 ? table.exchange[find_entry(table.size(), i, j)] / table.area[i] : 0;
+  return table.area[i] > 0 ? find_exchange(table, i, j) / table.area[i] : 0;
 }
 
 double find_factor_error(const FactorTable& table, uint32_t i, uint32_t j) {

@@ -45,7 +45,8 @@ FactorTable make_factor_table(const FactorScene& scene, size_t polygon_count);
 bool advance(FactorTable& table, const FactorScene& scene, const FaceTable& faces, const Tracer& tracer,
              const FactorSettings& settings);
 
-// These hold for rows that are known.
+// These hold for rows that are known. The exchange area A_i F_ij, lengths squared.
+double find_exchange(const FactorTable& table, size_t i, size_t j);
 double find_factor(const FactorTable& table, uint32_t i, uint32_t j);
 double find_factor_error(const FactorTable& table, uint32_t i, uint32_t j);
 

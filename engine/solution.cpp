@@ -23,8 +23,9 @@ std::vector<Rgb> find_vertex_radiosity(const Solution& s, const FaceTable& faces
       const size_t k = static_cast<size_t>(std::find(corner.begin(), corner.end(), v) - corner.begin());
       const Vec2 uv =
           cell_corner_parameters(s.frames.triangle[face], s.elements.cell[row], s.elements.level[row])[k];
-      const Rgb received = values[v] + sample_surface(s.patch_vertices, s.patches, s.frames, indirect,
-                                                      s.element_patch[row], uv);
+      const Rgb received =
+          s.ambient + values[v] +
+          sample_surface(s.patch_vertices, s.patches, s.frames, indirect, s.element_patch[row], uv);
       values[v] = faces.emission[face] + faces.reflectance[face] * received;
     }
   });

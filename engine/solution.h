@@ -2,6 +2,7 @@
 #pragma once
 
 #include "parallel.h"
+#include "polygon_factors.h"
 #include "solve.h"
 #include "vertices.h"
 
@@ -41,6 +42,10 @@ uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, 
                           float patch_size);
 // How many patches may carry light between surfaces.
 uint64_t count_transport_patches(const FaceTable& faces, const SolverSettings& settings);
+
+// Form factors between the elements, each a polygon of its own.
+FactorTable find_element_factors(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                                 const SolverSettings& settings);
 
 // Mean over the exposed area of each patch of a column of its elements.
 std::vector<Rgb> find_patch_means(const Solution& solution, std::span<const Rgb> column);

@@ -25,11 +25,13 @@ struct RoundReport {
   double seconds = 0;
 };
 
-// Powers in W when areas are m2: multiply by (metres a length) squared.
+// Powers in W when areas are m2: multiply by (metres a length) squared. Of other solvers (solvers.h): a shot,
+// or the whole solution.
 struct PassReport {
-  uint32_t pass = 0;
+  uint32_t pass = 0;        // 1 is the first
   uint64_t ray_count = 0;   // rays that this pass cast, or whose results it used for the first time
   DRgb added_power{0};      // sum of area times the radiosity that the pass added
+  DRgb unshot_power{0};     // the same of what nobody has sent on yet
   float added_largest = 0;  // largest radiosity that the pass added to any element, W/m2
   double seconds = 0;
 };
@@ -68,8 +70,12 @@ struct Solution {
   float mean_radiosity = 0;         // of the coarse solution, reflected light only, W/m2 (largest channel)
   std::vector<uint32_t> fresh;      // elements that the last round made
   uint64_t direct_ray_count = 0;
-  uint64_t transport_ray_count = 0;  // probes, rows and the aimed rays of pass 2
-  bool frozen = false;               // the mesh is final
+  uint64_t transport_ray_count = 0;  // probes, rows and the aimed rays of pass 2, or rays of shots
+  std::vector<uint32_t> shots;       // shooting: a row a patch, how often it was the shooter; else empty
+  double shot_power = 0;             // shooting: what all shots added, as PassReport has it, channels summed
+  Rgb ambient{0};  // shooting: irradiance that pictures add everywhere as a guess of what is unshot, W/m2
+  uint64_t factor_count = 0;  // form factors that the steps so far took, each estimate of one counted
+  bool frozen = false;        // the mesh is final
   std::vector<RoundReport> rounds;
   std::vector<PassReport> passes;
   Seconds seconds;
@@ -94,6 +100,19 @@ const PassReport& advance(Solution& solution, const FaceTable& faces, const Trac
 // and of its power. Beside a small bright spot the first alone would leave a dim room short of its last
 // bounces.
 bool is_converged(const Solution& solution, const SolverSettings& settings);
+
+// One shot of the solver `shooting`: the patch with the most unshot power sends it to all elements. The same
+// arguments; unshot columns hold what was received and not sent on.
+const PassReport& advance_shot(Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                               const SolverSettings& settings);
+// True once less than the share `until` of what all shots brought is left unshot.
+bool is_shot(const Solution& solution, const SolverSettings& settings);
+
+// The solver `matrix`: the converged solution on the frozen mesh at once. Throws std::domain_error where
+// light never dies, as in a closed room of reflectance 1.
+const PassReport& solve_matrix(Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                               const SolverSettings& settings);
+bool is_solved(const Solution& solution, const SolverSettings& settings);
 
 // Radiosity at the vertices of the elements after the passes so far, W/m2: what the smooth picture shows.
 std::vector<Rgb> vertex_radiosity(const Solution& solution, const FaceTable& faces);

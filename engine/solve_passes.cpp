@@ -15,6 +15,16 @@ namespace {
 
 constexpr uint32_t kSourceCount = 400;
 
+// The rays of all rows, and a factor for each element and lamp aimed at.
+uint64_t count_factors(const Solution& s, const FaceTable& faces) {
+  uint64_t count = uint64_t{s.hits.ray_count} * s.receivers.size();
+  for (const uint32_t face : s.elements.face) {
+    const uint32_t list = s.aims.list_of[faces.polygon[face]];
+    count += s.aims.list_first[list + 1] - s.aims.list_first[list];
+  }
+  return count;
+}
+
 }  // namespace
 
 const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tracer,
@@ -27,11 +37,13 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
   if (report.pass == 1) {
     gather_emission(s.irradiance_added, rows, s.aims);
     report.ray_count = s.direct_ray_count;
+    s.factor_count += count_factors(s, faces);
   } else if (report.pass == 2) {
     const SourceTable sources = make_sources(s.elements, faces, s.frames, s.elements.unshot, kSourceCount);
     const uint64_t aimed =
         gather_elements(s.irradiance_added, rows, {s.elements, s.element_first}, s.elements.unshot, sources);
     s.transport_ray_count += aimed;
+    s.factor_count += aimed;
     report.ray_count = aimed + uint64_t{s.hits.ray_count} * s.receivers.size();
   } else {
     const std::vector<Rgb> sent = s.patches.unshot;
@@ -56,6 +68,7 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
         double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(s.elements.unshot[row]);
     report.added_largest = std::max(report.added_largest, largest(s.elements.unshot[row]));
   }
+  report.unshot_power = report.added_power;  // the next pass sends it
   report.seconds = watch.read();
   s.seconds.solve += report.seconds;
   return s.passes.emplace_back(report);

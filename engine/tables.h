@@ -67,7 +67,7 @@ struct PatchTable {
   std::vector<float> area;           // lengths squared
   std::vector<float> exposed;        // 0..1, the share that does not lie buried in a solid
   std::vector<Rgb> radiosity;        // W/m2, mean over the exposed area: emission and all passes so far
-  std::vector<Rgb> unshot;           // W/m2, the part of radiosity that the last pass added
+  std::vector<Rgb> unshot;           // W/m2, the part of radiosity not sent yet: what the last pass added
   std::vector<uint32_t> face_first;  // faces + 1 row indices
   size_t size() const { return face.size(); }
 };

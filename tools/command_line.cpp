@@ -6,6 +6,7 @@
 #include "completion.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
+#include "engine/solvers.h"
 #include "exporters.h"
 #include "flag_values.h"
 #include "help.h"
@@ -120,11 +121,26 @@ void add_solver_flags(CLI::App& app, Options& options) {
   add_run_flags(app, options);
 }
 
+// Flags that choose another way to the light.
+void add_method_flags(CLI::App& app, Options& options) {
+  std::vector<std::string> names;
+  for (const Solver& solver : solvers()) names.emplace_back(solver.name);
+  add_choice(
+      app, "--solver", names,
+      "the way to solve: bounce by bounce, progressive refinement, or the whole linear system at once; "
+      "passes unless given",
+      [&](size_t choice) { options.solver = solvers()[choice].name; });
+  add_value(app, "--shots", "LIST", "shooting: pictures after these shots, such as 1,10,100, and then stop",
+            [&](const std::string& text) { options.shots = parse_steps("--shots", text); });
+  add_switch(app, "--ambient", options.ambient,
+             "shooting: pictures show an estimate of the light that is unshot, too");
+}
+
 // Flags that change which pictures there are.
 void add_picture_flags(CLI::App& app, Options& options) {
   add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
     options.snapshots_all = text == "all";
-    if (!options.snapshots_all) options.snapshots = parse_snapshots(text);
+    if (!options.snapshots_all) options.snapshots = parse_steps("--snapshots", text);
   });
   add_value(app, "--camera", "NAME", "only this camera of the scene", [&](const std::string& text) {
     if (text.empty()) fail_usage("--camera: expected the name of a camera");
@@ -144,11 +160,17 @@ void add_look_flags(CLI::App& app, Options& options) {
   });
 }
 
-void add_check_flags(CLI::App& app, Options& options) {
+// What render, check and show have in common.
+void add_common_flags(CLI::App& app, Options& options) {
   add_scene(app, options);
   add_solver_flags(app, options);
   add_picture_flags(app, options);
   add_talk_flags(app, options);
+}
+
+void add_check_flags(CLI::App& app, Options& options) {
+  add_common_flags(app, options);
+  add_method_flags(app, options);
 }
 
 void add_render_flags(CLI::App& app, Options& options) {
@@ -198,7 +220,7 @@ void add_verify_flags(CLI::App& app, Options& options) {
 }
 
 void add_show_flags(CLI::App& app, Options& options) {
-  add_check_flags(app, options);
+  add_common_flags(app, options);
   add_look_flags(app, options);
   add_switch(app, "--effective", options.effective, "the merged settings with their origins");
 }
@@ -298,6 +320,19 @@ std::vector<std::string> flag_names(const CLI::App& app) {
                          verb.get_name()));
 }
 
+// Flags that only some solvers know are never ignored.
+void check_solver_flags(const Options& options) {
+  const std::string& solver = options.solver;
+  if (solver != "shooting" && !options.shots.empty()) fail_usage("--shots: only --solver shooting has shots");
+  if (solver != "shooting" && options.ambient)
+    fail_usage("--ambient: only --solver shooting estimates what is unshot");
+  const bool has_passes = solver.empty() || solver == solvers()[0].name;
+  if (!has_passes && options.passes) fail_usage(fmt::format("--passes: --solver {} has no passes", solver));
+  if (!has_passes && (options.snapshots_all || !options.snapshots.empty()))
+    fail_usage(fmt::format("--snapshots: --solver {} has no passes{}", solver,
+                           solver == "shooting" ? "; --shots asks for pictures after shots" : ""));
+}
+
 // They are read more than once.
 void check_bench_scenes(const std::vector<std::string>& scenes) {
   for (const std::string& scene : scenes)
@@ -386,6 +421,7 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   const CLI::App& verb = *verbs[parsed()];
   if (!verb.remaining().empty()) fail_extra(verb.remaining(), verb);
   options.verb = row.verb;
+  check_solver_flags(options);
   if (row.verb == Verb::kBench) check_bench_scenes(options.bench.scenes);
   const CLI::Option* scene = verb.get_option_no_throw("SCENE");
   if (scene != nullptr && scene->get_required() && options.scene.empty()) fail_usage("expected a scene file");

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kReportVersion = 1;
 constexpr size_t kWorstCount = 5;
+constexpr size_t kStepsMax = 1000;
 
 Json rgb(const DRgb& value) { return {value.r, value.g, value.b}; }
 
@@ -89,15 +90,20 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                               {"split", round.split_count},
                               {"rays", round.ray_count},
                               {"seconds", round.seconds}});
-  json["passes"] = Json::array();
-  for (const PassReport& pass : solution.passes)
-    // What a pass adds is what the next one sends.
-    json["passes"].push_back({{"pass", pass.pass},
-                              {"rays", pass.ray_count},
-                              {"added_power", rgb(pass.added_power * power_scale)},
-                              {"unshot_power", rgb(pass.added_power * power_scale)},
-                              {"seconds", pass.seconds}});
-  json["stopped"] = {{"reason", report.stopped_reason}, {"pass", solution.passes.size()}};
+  const std::string step(report.solver.step), steps = fmt::format("{}{}", step, step == "pass" ? "es" : "s");
+  json["solver"] = report.solver.name;
+  json["form_factors_found"] = solution.factor_count;
+  json[steps] = Json::array();
+  // Shots are many: a thousand of them tell how it went.
+  const size_t count = solution.passes.size(), stride = (count + kStepsMax - 1) / kStepsMax;
+  for (size_t k = 0; k < count; ++k)
+    if (const PassReport& pass = solution.passes[k]; k % stride == 0 || k + 1 == count)
+      json[steps].push_back({{step, pass.pass},
+                             {"rays", pass.ray_count},
+                             {"added_power", rgb(pass.added_power * power_scale)},
+                             {"unshot_power", rgb(pass.unshot_power * power_scale)},
+                             {"seconds", pass.seconds}});
+  json["stopped"] = {{"reason", report.stopped_reason}, {step, count}};
   if (!report.stopped_signal.empty()) json["stopped"]["signal"] = report.stopped_signal;
   if (report.power)
     json["power"] = {{"emitted", rgb(report.power->emitted * power_scale)},

@@ -1,7 +1,7 @@
 // What a run has to tell afterwards, for S-report.json and the summary.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solvers.h"
 #include "plan.h"
 
 #include <optional>
@@ -21,6 +21,7 @@ std::vector<double> find_row_sums(const Solution& solution, const FaceTable& fac
 
 // Filled while the run goes; what is empty was not measured and is left out of the report.
 struct RunReport {
+  Solver solver = solvers()[0];
   std::string stopped_reason;  // converged, passes or signal
   std::string stopped_signal;  // SIGINT or SIGTERM, after a signal
   size_t thread_count = 0;

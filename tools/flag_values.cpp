@@ -70,10 +70,10 @@ double parse_number(std::string_view flag, std::string_view text, double low, do
   return value;
 }
 
-std::vector<uint32_t> parse_snapshots(std::string_view text) {
+std::vector<uint32_t> parse_steps(std::string_view flag, std::string_view text) {
   std::vector<uint32_t> passes;
   for (const std::string& part : split_list(text))
-    passes.push_back(static_cast<uint32_t>(parse_count("--snapshots", part, 1, kPassesFlagMax)));
+    passes.push_back(static_cast<uint32_t>(parse_count(flag, part, 1, kPassesFlagMax)));
   std::sort(passes.begin(), passes.end());
   passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
   return passes;

@@ -26,7 +26,7 @@ uint64_t parse_bytes(std::string_view flag, std::string_view text);
 // One finite decimal number within [low, high].
 double parse_number(std::string_view flag, std::string_view text, double low, double high);
 // "1,2,16": ascending, repeats dropped.
-std::vector<uint32_t> parse_snapshots(std::string_view text);
+std::vector<uint32_t> parse_steps(std::string_view flag, std::string_view text);
 // "960x720". Limits are checked with those of the scene's cameras.
 std::array<uint32_t, 2> parse_size(std::string_view text);
 // "png,csv": names of exporters, repeats dropped.

@@ -47,6 +47,9 @@ struct Options {
   std::optional<uint32_t> passes;
   std::vector<uint32_t> snapshots;  // ascending, no repeats; empty: not asked
   bool snapshots_all = false;
+  std::string solver;           // a row of solvers(); empty: the first
+  std::vector<uint32_t> shots;  // shooting: pictures after these, ascending; empty: its end
+  bool ambient = false;         // shooting
   std::string camera;
   std::optional<std::array<uint32_t, 2>> size;  // width, height, pixels
   std::optional<Shading> shading;

@@ -122,7 +122,8 @@ void keep_light(Run& run) {
     run.light.now = find_radiosity(run);
   }
   if (pass == 0 && run.plan.storyboard) run.series.told = find_radiosity(run);
-  if (pass == 1 && (run.plan.look.light != Light::kAll || wants(run, PixelKind::kLayers)))
+  if (pass == 1 && run.plan.goes_by_passes() &&
+      (run.plan.look.light != Light::kAll || wants(run, PixelKind::kLayers)))
     run.light.first = find_radiosity(run);
   run.report.seconds.render += watch.lap();
 }
@@ -167,6 +168,7 @@ Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb>
 void add_layers(Picture& picture, const Run& run, size_t camera, std::span<const Rgb> radiosity) {
   constexpr const char* kEndings[3] = {".R", ".G", ".B"};
   for (const Light light : {Light::kDirect, Light::kIndirect}) {
+    if (!run.plan.goes_by_passes()) break;
     const std::vector<Rgb> pixels = expose(run.films[camera], pick_light(run.light, radiosity, light));
     for (int k = 0; k < 3; ++k) {
       Channel& channel = picture.channels.emplace_back();

@@ -49,6 +49,17 @@ uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
   return bytes;
 }
 
+// Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
+void check_look(const Plan& plan) {
+  if (plan.goes_by_passes()) return;
+  std::string flag;
+  if (plan.look.light != Light::kAll) flag = "--light";
+  if (plan.look.false_color == FalseColor::kResidual) flag = "--false-color residual";
+  if (plan.animate_passes) flag = "--animation passes";
+  if (!flag.empty())
+    throw UserError("usage", fmt::format("{}: expected --solver passes, found {}", flag, plan.solver->name));
+}
+
 std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
   std::vector<Camera> cameras = scene.cameras;
   if (!options.camera.empty()) {
@@ -72,6 +83,27 @@ std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
   return cameras;
 }
 
+// No scene needs so many; a closed room of reflectance 1 never ends.
+constexpr uint32_t kShotsMax = 10'000'000;
+
+// The solver, how far it goes, and what is pictured on the way.
+void plan_steps(Plan& plan, Scene& scene, const Options& options) {
+  plan.solver = &solvers()[0];
+  for (const Solver& solver : solvers())
+    if (solver.name == options.solver) plan.solver = &solver;
+  if (!options.max_patches)
+    scene.solver.patch_count_max = std::min(scene.solver.patch_count_max, plan.solver->patch_count_usual);
+  if (plan.solver == &solvers()[0]) {
+    plan.step_count_max = scene.solver.pass_count_max;
+    plan.snapshots =
+        pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
+    return;
+  }
+  scene.solver.ambient = options.ambient;
+  plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kSolutionStep} : options.shots;
+  plan.step_count_max = options.shots.empty() ? kShotsMax : options.shots.back();
+}
+
 }  // namespace
 
 bool Plan::has_pictures() const {
@@ -79,6 +111,8 @@ bool Plan::has_pictures() const {
          std::any_of(exporters.begin(), exporters.end(),
                      [](const Exporter* exporter) { return exporter->pixels != PixelKind::kNoPixels; });
 }
+
+bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
 std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count) {
   std::vector<uint32_t> passes;
@@ -127,7 +161,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   if (plan.stem.empty() || plan.stem.find('/') != std::string::npos)
     throw UserError("output-outside-dir",
                     fmt::format("'{}' cannot begin the names of files", escape_text(plan.stem)));
-  plan.snapshots = pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
+  plan_steps(plan, scene, options);
   plan.cameras = pick_cameras(scene, options);
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
@@ -135,6 +169,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.storyboard = options.storyboard;
   plan.animate_passes = options.animate_passes;
   plan.animate_rounds = options.animate_rounds;
+  check_look(plan);
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
   plan.limits = options.load.limits;
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
@@ -146,11 +181,15 @@ Plan make_plan(Scene& scene, const Options& options) {
   return plan;
 }
 
+std::string name_steps(std::string_view step) {
+  return fmt::format("{}{}", step, step == "pass" ? "es" : "s");
+}
+
 std::string name_camera(const Plan& plan, const Camera& camera) {
   return plan.cameras_named ? plan.stem + "-" + camera.name : plan.stem;
 }
 
-std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter) {
   const bool display = exporter.pixels == PixelKind::kDisplay, mesh = plan.mesh && display;
   // Of levels and reasons there are flat pictures only, and beside them only flat numbers.
@@ -162,7 +201,11 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
   const Look& look = plan.look;
   const bool colored = display && look.false_color != FalseColor::kOff;
   const bool lit = !colored || look.false_color == FalseColor::kRadiosity;
-  return fmt::format("{}-pass-{:02}{}{}{}{}{}.{}", name_camera(plan, camera), pass,
+  const int digits = plan.solver->step == "shot" ? 6 : 2;
+  const std::string place =
+      step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
+  return fmt::format("{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place,
+                     scene.solver.ambient ? "-ambient" : "",
                      name(lit && look.light != Light::kAll, kLightNames, look.light),
                      name(colored, kFalseColorNames, look.false_color),
                      name(display && !colored && look.tone != Tone::kClip, kToneNames, look.tone),
@@ -170,7 +213,8 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
-  uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
+  uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches) +
+                   plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
   if (!plan.has_pictures()) return bytes;
   uint64_t pixels_largest = 0;
   for (const Camera& camera : plan.cameras) {
@@ -187,6 +231,8 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
 RunForecast forecast_run(const Scene& scene, const Plan& plan) {
   const Forecast solve = forecast_solve(scene.faces, scene.solver, plan.starting_patches);
   double bytes = kProgramBytesLikely + solve.bytes, seconds = solve.seconds, pixels_largest = 0;
+  bytes += static_cast<double>(plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches));
+  seconds += plan.solver->forecast_seconds(scene.faces, scene.solver, plan.starting_patches);
   if (plan.has_pictures())
     for (const Camera& camera : plan.cameras) {
       const double pixels = static_cast<double>(uint64_t{camera.width} * camera.height);

@@ -1,6 +1,7 @@
 // Scene file and flags -> what this run will do, and whether it may.
 #pragma once
 
+#include "engine/solvers.h"
 #include "exporters.h"
 #include "options.h"
 
@@ -9,9 +10,14 @@
 
 namespace patchlight {
 
+// A picture of where a solver ends, whichever step that is.
+constexpr uint32_t kSolutionStep = ~uint32_t{0};
+
 struct Plan {
-  std::string stem;                 // S in the names of files
-  std::vector<uint32_t> snapshots;  // passes to picture: ascending, not empty, none beyond the last
+  std::string stem;  // S in the names of files
+  const Solver* solver = nullptr;
+  uint32_t step_count_max = 0;      // steps (passes, shots) at most
+  std::vector<uint32_t> snapshots;  // steps to picture: ascending, not empty
   std::vector<Camera> cameras;      // the asked ones, with the asked size
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
@@ -24,6 +30,7 @@ struct Plan {
   size_t thread_count = 1;  // what it will run on
   uint64_t starting_patches = 0;
   bool has_pictures() const;
+  bool goes_by_passes() const;  // a step is a bounce of light
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -41,9 +48,12 @@ std::string pick_stem(const std::string& scene_file, const std::string& basename
 // S, or S-CAMERA where the scene has several.
 std::string name_camera(const Plan& plan, const Camera& camera);
 
-// S-pass-02-direct-flat-mesh.png and the like.
-std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t pass,
+// S-pass-02-direct-flat-mesh.png, S-shot-000100-ambient.png, S-solution.png and the like.
+std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
+
+// More than one step: passes, shots.
+std::string name_steps(std::string_view step);
 
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);

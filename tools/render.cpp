@@ -11,15 +11,18 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <stdexcept>
 
 namespace patchlight {
 namespace {
 
 constexpr int kExitNotConverged = 6;
 
-// Sends the pictures of the current state to the files of all `passes`.
-void write_snapshots(Run& run, std::span<const uint32_t> passes) {
-  if (passes.empty() || !run.plan.has_pictures()) return;
+double sum_channels(const DRgb& power) { return power.r + power.g + power.b; }
+
+// Sends the pictures of the current state to the files of all `steps`.
+void write_snapshots(Run& run, std::span<const uint32_t> steps) {
+  if (steps.empty() || !run.plan.has_pictures()) return;
   LapWatch watch;
   const std::vector<Rgb> radiosity = find_radiosity(run);
   check_values(run, radiosity);
@@ -35,9 +38,9 @@ void write_snapshots(Run& run, std::span<const uint32_t> passes) {
           std::make_shared<Picture>(take_picture(run, run.films[k], display ? shown : lit, exporter->pixels));
       if (exporter->pixels == PixelKind::kLayers) add_layers(*picture, run, k, radiosity);
       std::vector<std::string> paths;
-      for (const uint32_t pass : passes)
+      for (const uint32_t step : steps)
         paths.push_back(run.folder + "/" +
-                        make_picture_name(run.plan, run.scene, run.plan.cameras[k], pass, *exporter));
+                        make_picture_name(run.plan, run.scene, run.plan.cameras[k], step, *exporter));
       run.report.seconds.render += watch.lap();
       push_job(run.jobs, [picture, paths, encode = exporter->encode_picture] {
         const std::string bytes = encode(*picture);
@@ -71,21 +74,31 @@ void refine_all(Run& run, const Tracer& tracer) {
   while (refine(run.solution, run.scene.faces, tracer, run.scene.solver)) tell();
 }
 
+void say_step(Run& run, const PassReport& step) {
+  const Plan& plan = run.plan;
+  if (plan.snapshots.back() != kSolutionStep)
+    say_progress(run.talk, fmt::format("{} {} of {}", plan.solver->step, step.pass, plan.step_count_max));
+  else
+    say_progress(run.talk, fmt::format("{} {}, unshot {:.2g} of {:.2g}", plan.solver->step, step.pass,
+                                       sum_channels(step.unshot_power), run.solution.shot_power));
+}
+
 void advance_all(Run& run, const Tracer& tracer) {
   const SolverSettings& settings = run.scene.solver;
+  const Solver& solver = *run.plan.solver;
   std::span<const uint32_t> snapshots = run.plan.snapshots;
   bool last = false;
   while (!last) {
-    const PassReport& pass = advance(run.solution, run.scene.faces, tracer, settings);
-    const bool converged = is_converged(run.solution, settings);
-    last = converged || pass.pass == settings.pass_count_max;
-    if (last) run.report.stopped_reason = converged ? "converged" : "passes";
-    say_progress(run.talk, fmt::format("pass {} of {}", pass.pass, settings.pass_count_max));
+    const PassReport& step = solver.advance(run.solution, run.scene.faces, tracer, settings);
+    const bool converged = solver.is_converged(run.solution, settings);
+    last = converged || step.pass == run.plan.step_count_max;
+    if (last) run.report.stopped_reason = converged ? "converged" : name_steps(solver.step);
+    say_step(run, step);
     keep_light(run);
     take_pass(run);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
-    while (due < snapshots.size() && (last || snapshots[due] == pass.pass)) ++due;
+    while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
     write_snapshots(run, snapshots.first(due));
     snapshots = snapshots.subspan(due);
   }
@@ -96,7 +109,14 @@ void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
   freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
   if (run.plan.has_pictures()) start_pictures(run, tracer);
-  advance_all(run, tracer);
+  try {
+    advance_all(run, tracer);
+  } catch (const std::domain_error&) {
+    throw UserError("singular-system",
+                    "light never dies in this scene, so that the system of equations has no solution: some "
+                    "reflectance must be below 1, or some light must leave",
+                    run.scene.file);
+  }
   write_series(run);
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
@@ -114,16 +134,25 @@ void write_report(Run& run, const std::string& path, LapWatch& whole) {
   run.tables.insert(run.tables.begin(), path);
 }
 
+// "12 of 16 passes (converged)", "4,711 shots (converged)", "the whole system at once".
+std::string describe_steps(const Run& run) {
+  const std::string_view step = run.plan.solver->step;
+  const size_t count = run.solution.passes.size();
+  std::string why = run.report.stopped_reason;
+  if (why == "signal")
+    why = "stopped by " + run.report.stopped_signal;
+  else if (why != "converged")
+    why = "all that were asked for";
+  if (step == "solution") return count > 0 ? "the whole system at once" : why;
+  if (run.plan.snapshots.back() == kSolutionStep) return fmt::format("{} {}s ({})", count, step, why);
+  return fmt::format("{} of {} {} ({})", count, run.plan.step_count_max, name_steps(step), why);
+}
+
 void say_summary(Run& run) {
   const RunReport& report = run.report;
-  const size_t pass_count = run.solution.passes.size();
-  std::string why = report.stopped_reason;
-  if (why == "passes") why = "all that were asked for";
-  if (why == "signal") why = "stopped by " + report.stopped_signal;
   say(run.talk,
-      fmt::format("{}: {} of {} passes ({}), {} patches, {} rays{}", run.plan.stem, pass_count,
-                  run.scene.solver.pass_count_max, why, run.solution.elements.size(),
-                  format_count(count_rays(report, run.solution)),
+      fmt::format("{}: {}, {} patches, {} rays{}", run.plan.stem, describe_steps(run),
+                  run.solution.elements.size(), format_count(count_rays(report, run.solution)),
                   report.power ? fmt::format(", closure error {:.2g}", report.power->closure_error) : ""));
   const StageSeconds& s = report.seconds;
   say(run.talk, fmt::format("seconds: load {:.2f}, trace {:.2f}, split {:.2f}, solve {:.2f}, render {:.2f}, "
@@ -158,6 +187,7 @@ int render(const Options& options, Talk& talk) {
   say_diagnostics(talk, warnings);
   run.plan = make_plan(run.scene, options);
   check_limits(run.scene, run.plan);
+  run.report.solver = *run.plan.solver;
   run.report.forecast_bytes = forecast_run_bytes(run.scene, run.plan);
   const StopSignals signals;  // From here on there may be files to clean up.
   const OutputFolder folder = open_output_folder(options.out);

@@ -23,14 +23,19 @@ double find_watts(const Run& run, size_t pass) {
   return double{luminance(Rgb(power))} * metres * metres;
 }
 
-std::string label_pass(const Run& run) {
-  const PassReport& pass = run.solution.passes.back();
-  return fmt::format("pass {}{}", pass.pass, run.report.stopped_reason == "converged" ? " (converged)" : "");
+std::string label_step(const Run& run) {
+  const std::string_view step = run.plan.solver->step;
+  if (step == "solution") return std::string(step);
+  return fmt::format("{} {}{}", step, run.solution.passes.back().pass,
+                     run.report.stopped_reason == "converged" ? " (converged)" : "");
 }
 
-std::string label_added(uint32_t after, uint32_t pass) {
-  if (pass == after + 1) return fmt::format("added by pass {}", pass);
-  return fmt::format("added by passes {} to {}", after + 1, pass);
+std::string label_added(const Run& run, uint32_t after) {
+  const std::string_view step = run.plan.solver->step;
+  const uint32_t last = run.solution.passes.back().pass;
+  if (step == "solution") return "added to emission";
+  if (last == after + 1) return fmt::format("added by {} {}", step, last);
+  return fmt::format("added by {} {} to {}", name_steps(step), after + 1, last);
 }
 
 Picture shrink_panel(const Run& run, const Picture& picture) {
@@ -84,7 +89,7 @@ void take_pass(Run& run) {
   LapWatch watch;
   const std::vector<Rgb> shown =
       show_values(run, pick_light(run.light, find_radiosity(run), run.plan.look.light));
-  const std::string label = fmt::format("{}{}+{}", label_pass(run), kDot,
+  const std::string label = fmt::format("{}{}+{}", label_step(run), kDot,
                                         format_watts(find_watts(run, run.solution.passes.size() - 1)));
   run.series.passes.resize(run.films.size());
   for (size_t k = 0; k < run.films.size(); ++k)
@@ -99,7 +104,6 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity) {
   const std::vector<Rgb> shown = show_values(run, pick_light(run.light, radiosity, run.plan.look.light));
   const std::vector<Rgb> added =
       color_values(series.added_scale, find_added({.first = {}, .before = series.told, .now = radiosity}));
-  const PassReport& pass = run.solution.passes.back();
   series.storyboards.resize(run.films.size());
   for (size_t k = 0; k < run.films.size(); ++k) {
     const FilmTable& film = run.films[k];
@@ -108,12 +112,12 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity) {
     Picture lit{film.width, film.height, expose(film, shown)};
     if (run.plan.look.false_color != FalseColor::kOff) fill_nothing(lit.pixels, film, kNothingColor);
     series.storyboards[k].panels.push_back(
-        {label_pass(run), fmt::format("reflects {}", format_watts(find_watts(run, 0))),
-         shrink_panel(run, lit), label_added(series.told_pass, pass.pass),
+        {label_step(run), fmt::format("reflects {}", format_watts(find_watts(run, 0))),
+         shrink_panel(run, lit), label_added(run, series.told_pass),
          fmt::format("+{}", format_watts(find_watts(run, series.told_pass))), shrink_panel(run, colored)});
   }
   series.told = radiosity;
-  series.told_pass = pass.pass;
+  series.told_pass = run.solution.passes.back().pass;
 }
 
 void write_series(Run& run) {

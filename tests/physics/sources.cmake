@@ -4,4 +4,5 @@ set(PHYSICS_TEST_SOURCES
   physics/passes.cpp
   physics/rooms.cpp
   physics/shadows.cpp
+  physics/solvers.cpp
 )

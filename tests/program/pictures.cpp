@@ -105,6 +105,29 @@ TEST_CASE("a storyboard and animations are written beside the pictures") {
   CHECK(count_frames("lit/box-rounds.gif") == json["rounds"].size());
 }
 
+TEST_CASE("looks of single passes are refused with other solvers, which have storyboards all the same") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{
+           {"--light", "direct"}, {"--false-color", "residual"}, {"--animation", "passes"}}) {
+    std::vector<std::string> words = flags;
+    words.insert(words.end(), {"--solver", "shooting"});
+    const ChildResult result = run_child(render_words(folder / "box.yaml", folder / "lit", words));
+    CHECK(result.exit_code == 2);
+    CHECK(result.err.find(flags[0]) != std::string::npos);
+  }
+  for (const char* solver : {"shooting", "matrix"}) {
+    const ChildResult result = run_child(render_words(
+        folder / "box.yaml", folder / solver, {"--solver", solver, "--storyboard", "--format", "exr"}));
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(is_whole_png(read_bytes(folder / (std::string(solver) + "/box-storyboard.png"))));
+    const std::string file = read_bytes(folder / (std::string(solver) + "/box-solution.exr"));
+    CHECK(file.find(std::string("Z") + '\0') != std::string::npos);
+    CHECK(file.find("direct.R") == std::string::npos);
+  }
+}
+
 TEST_CASE("every layer of an EXR and an HDR are written in one run") {
   const Folder folder;
   write_bytes(folder / "box.yaml", kBoxScene);

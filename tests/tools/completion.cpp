@@ -30,7 +30,7 @@ std::string complete_in_bash(const std::string& words) {
 
 TEST_CASE("bash completes verbs, flags, choices, lists and files") {
   CHECK(complete_in_bash("patchlight ver") == "verify\n");
-  CHECK(complete_in_bash("patchlight render --sh") == "--shading\n");
+  CHECK(complete_in_bash("patchlight render --sha") == "--shading\n");
   CHECK(complete_in_bash("patchlight render --shading ''") == "smooth flat\n");
   CHECK(complete_in_bash("patchlight render --color = al") == "always\n");
   CHECK(complete_in_bash("patchlight render --format png,e") == "png,exr\n");

@@ -1,0 +1,102 @@
+// A shooter and elements to irradiance. Where a shot is bright it is looked at as closely as direct light.
+// Where it is one of thousands that are dim, an element casts a single ray, sixteen elements a packet: shots
+// start and end elsewhere each time, so that their errors average out.
+#include "shoot.h"
+
+#include "parallel.h"
+#include "rows.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace patchlight {
+namespace {
+
+// Dim elements that wait for their packet to be full.
+struct DimPacket {
+  RayPacket rays;
+  std::array<uint32_t, kPacketSize> row;
+  std::array<float, kPacketSize> factor;
+  uint32_t count = 0;
+};
+
+// A pair of points, one on each.
+void add_dim_ray(DimPacket& dim, const PatchTable& elements, uint32_t row, float factor, const Lamp& shooter,
+                 const FaceTable& faces, const FaceFrameTable& frames, uint64_t key) {
+  const uint32_t face = elements.face[row], k = dim.count++;
+  const bool triangle = frames.triangle[face], shooter_triangle = frames.triangle[shooter.face];
+  const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
+  const Vec3 from = face_point(frames, face, cell_sample(triangle, cell, make_jitter(key, 0)));
+  const Vec3 to =
+      face_point(frames, shooter.face, cell_sample(shooter_triangle, shooter.cell, make_jitter(key, 1)));
+  const Vec3 start = from + ray_offset(from) * faces.normal[face];
+  const Vec3 way = to + ray_offset(to) * shooter.normal - start;
+  dim.rays.origin_x[k] = start.x, dim.rays.origin_y[k] = start.y, dim.rays.origin_z[k] = start.z;
+  dim.rays.direction_x[k] = way.x, dim.rays.direction_y[k] = way.y, dim.rays.direction_z[k] = way.z;
+  dim.rays.near_distance[k] = 0, dim.rays.far_distance[k] = 1;
+  dim.row[k] = row, dim.factor[k] = factor;
+}
+
+void finish_dim(std::span<Rgb> irradiance, DimPacket& dim, Rgb sent, const Tracer& tracer) {
+  if (dim.count == 0) return;
+  const uint32_t blocked = find_blocked(tracer, dim.rays, (1u << dim.count) - 1);
+  for (uint32_t k = 0; k < dim.count; ++k)
+    if (!(blocked >> k & 1u)) irradiance[dim.row[k]] = dim.factor[k] * sent;
+  dim.count = 0;
+}
+
+}  // namespace
+
+ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const Lamp& shooter, Rgb sent,
+                 const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, ShotRays rays,
+                 uint64_t seed, uint64_t shot) {
+  const uint32_t packet_count = std::clamp(rays.mixed / kPacketSize, 1u, kPacketsMax);
+  const Strata strata(packet_count), whole(1);
+  const uint64_t shot_key = mix_bits(shot + 1);
+  std::atomic<uint64_t> factor_count{0}, ray_count{0};
+  for_rows(elements.size(), 1024, [&](size_t begin, size_t end) {
+    PointPackets packets;
+    DimPacket dim;
+    uint64_t counted = 0, cast = 0;
+    for (auto row = static_cast<uint32_t>(begin); row < end; ++row) {
+      irradiance[row] = Rgb(0);
+      const uint32_t face = elements.face[row];
+      if (elements.exposed[row] == 0) continue;
+      const Vec3 normal = faces.normal[face];
+      const auto corners = cell_corners(frames, face, elements.cell[row], elements.level[row]);
+      if (!can_reach(corners, normal, shooter)) continue;
+      const uint64_t key = make_element_key(elements, row, seed) ^ shot_key;
+      const bool partly_buried = elements.exposed[row] < 1;
+      packets.made = 0;
+      if (partly_buried) {
+        make_packets(packets, 1, strata, elements, faces, frames, tracer, row, key);
+        if (packets.open[0] == 0) continue;
+      }
+      const float factor = find_mean_factor(elements, frames, row, normal, corners, shooter,
+                                            packets.points[0], partly_buried ? packets.open[0] : 0xffff);
+      if (factor == 0) continue;
+      ++counted;
+      if (!partly_buried && factor * largest(sent) < rays.bright) {
+        add_dim_ray(dim, elements, row, factor, shooter, faces, frames, mix_bits(key));
+        ++cast;
+        if (dim.count == kPacketSize) finish_dim(irradiance, dim, sent, tracer);
+        continue;
+      }
+      VisibilitySums sums;
+      for (uint32_t packet = 0; packet < packet_count; ++packet) {
+        if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+        make_packets(packets, packet + 1, strata, elements, faces, frames, tracer, row, key);
+        add_visibility(sums, packets.points[packet], packets.open[packet], normal, shooter, frames, tracer,
+                       key, packet, strata);
+      }
+      cast += sums.rays;
+      if (sums.all > 0) irradiance[row] = factor * (sums.seen / sums.all) * sent;
+    }
+    finish_dim(irradiance, dim, sent, tracer);
+    factor_count += counted, ray_count += cast;
+  });
+  return {factor_count, ray_count};
+}
+
+}  // namespace patchlight

@@ -1,0 +1,230 @@
+// The three solvers against each other and against closed forms: they share a mesh, and little else.
+#include "engine/solvers.h"
+
+#include "engine/polygon_factors.h"
+#include "engine/solution.h"
+#include "tests/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+using namespace patchlight;
+
+namespace {
+
+// A room with a block that hides parts of it from each other, a coloured wall, and a large lamp in its
+// ceiling.
+FaceTable make_blocked_room() {
+  FaceTable faces;
+  BoxSurfaces surfaces = make_box_surfaces({Rgb(0), Rgb(0.7f, 0.6f, 0.5f)});
+  surfaces[kLeft].reflectance = Rgb(0.6f, 0.1f, 0.1f);
+  surfaces[kCeiling].emission = Rgb(1);
+  add_box_inward(faces, Vec3(0), Vec3(1), surfaces);
+  add_box_outward(faces, {0.3f, 0.2f, 0.3f}, {0.6f, 0.6f, 0.7f}, make_surface(0, 0.6f));
+  fit_scene(faces);
+  return faces;
+}
+
+// Elements that are the patches: no mesh of its own for direct light.
+SolverSettings make_plain_settings(uint32_t rays) {
+  SolverSettings settings;
+  settings.patch_count_max = 800;
+  settings.patch_size = 10;  // lengths, more than the scene has
+  settings.threshold = 1e9f;
+  settings.rays = rays;
+  return settings;
+}
+
+Run make_run(const FaceTable& faces, const SolverSettings& settings) {
+  Run run = run_scene(faces, settings, 0);
+  freeze(run.solution, faces, run.tracer, settings);
+  return run;
+}
+
+Run solve_by(const char* name, const FaceTable& faces, const SolverSettings& settings) {
+  Run run = make_run(faces, settings);
+  for (const Solver& solver : solvers())
+    if (solver.name == std::string_view(name))
+      while (!solver.is_converged(run.solution, settings) && run.solution.passes.size() < 100'000)
+        solver.advance(run.solution, faces, run.tracer, settings);
+  REQUIRE(!run.solution.passes.empty());
+  return run;
+}
+
+// Area means of the patches' green radiosity over each polygon.
+std::vector<double> find_patch_polygon_means(const Solution& s, const FaceTable& faces,
+                                             std::span<const double> radiosity) {
+  std::vector<double> sum(next_polygon(faces), 0), area(sum.size(), 0);
+  for (size_t p = 0; p < s.patches.size(); ++p) {
+    const double exposed_area = double{s.patches.area[p]} * s.patches.exposed[p];
+    sum[faces.polygon[s.patches.face[p]]] += exposed_area * radiosity[p];
+    area[faces.polygon[s.patches.face[p]]] += exposed_area;
+  }
+  for (size_t k = 0; k < sum.size(); ++k) sum[k] /= area[k];
+  return sum;
+}
+
+std::vector<double> take_green(std::span<const Rgb> values) {
+  std::vector<double> green;
+  for (const Rgb& value : values) green.push_back(double{value.g});
+  return green;
+}
+
+}  // namespace
+
+TEST_CASE("pass by pass the patches follow the Neumann series of all form factors, found another way") {
+  const FaceTable faces = make_blocked_room();
+  const SolverSettings settings = make_plain_settings(1024);
+  Run run = make_run(faces, settings);
+  Solution& s = run.solution;
+  REQUIRE(s.elements.size() == s.patches.size());
+  const FactorTable factors = find_element_factors(s, faces, run.tracer, settings);
+  const size_t n = factors.size();
+  std::vector<double> added(n), all(n), next(n);
+  for (size_t i = 0; i < n; ++i) all[i] = added[i] = double{faces.emission[s.patches.face[i]].g};
+  // Patch i's row errs by at most 1 / (2 sqrt(rays)) of the range of what is sent, which is at most 1, and
+  // so by less than 0.016; a polygon of at least 16 patches by a quarter of that, on average over its passes
+  // less than four standard errors: 0.016 times rho <= 0.6, each pass. Strata make it several times smaller.
+  // What is off in one pass is sent on: times 1 / (1 - 0.6).
+  const double once = 0.016 * 0.6, for_ever = once / (1 - 0.6);
+  for (uint32_t pass = 1; pass <= 16; ++pass) {
+    for (uint32_t i = 0; i < n; ++i) {
+      next[i] = 0;
+      for (uint32_t j = 0; j < n; ++j) next[i] += find_factor(factors, i, j) * added[j];
+      next[i] *= double{faces.reflectance[s.patches.face[i]].g};
+    }
+    added = next;
+    for (size_t i = 0; i < n; ++i) all[i] += added[i];
+    advance(s, faces, run.tracer, settings);
+    const std::vector<double> expected = find_patch_polygon_means(s, faces, all);
+    const std::vector<double> found = find_patch_polygon_means(s, faces, take_green(s.patches.radiosity));
+    for (size_t k = 0; k < expected.size(); ++k) {
+      CAPTURE(pass);
+      CAPTURE(k);
+      CHECK(std::abs(found[k] - expected[k]) <= (pass == 1 ? once : for_ever));
+    }
+  }
+}
+
+TEST_CASE("the matrix is the sum of its own Neumann series") {
+  const FaceTable faces = make_blocked_room();
+  const SolverSettings settings = make_plain_settings(64);
+  const Run run = solve_by("matrix", faces, settings);
+  const Solution& s = run.solution;
+  const FactorTable factors = find_element_factors(s, faces, run.tracer, settings);
+  // One more bounce of the solution is the solution. Columns are floats.
+  for (uint32_t i = 0; i < s.elements.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      double received = 0;
+      for (uint32_t j = 0; j < s.elements.size(); ++j)
+        received += find_factor(factors, i, j) * double{s.elements.radiosity[j][k]};
+      const uint32_t face = s.elements.face[i];
+      const double expected = double{faces.emission[face][k]} + double{faces.reflectance[face][k]} * received;
+      CHECK(double{s.elements.radiosity[i][k]} == doctest::Approx(expected).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("furnace, by the matrix: E = 0.5, rho = 0.5 in a closed box gives B = 1 everywhere") {
+  FaceTable faces;
+  add_box_inward(faces, Vec3(0), Vec3(1, 2, 3), make_box_surfaces(make_surface(0.5f, 0.5f)));
+  fit_scene(faces);
+  const Run run = solve_by("matrix", faces, make_plain_settings(64));
+  // Rows of exact factors sum to 1 within 1e-6 (contour.h), and B = 0.5 / (1 - 0.5 sum).
+  for (const Rgb& radiosity : run.solution.elements.radiosity)
+    CHECK(double{radiosity.g} == doctest::Approx(1).epsilon(2e-6));
+}
+
+TEST_CASE("all solvers end at one solution") {
+  const FaceTable faces = make_blocked_room();
+  SolverSettings settings = make_plain_settings(1024);
+  settings.until = 1e-4;
+  const Run matrix = solve_by("matrix", faces, settings), shooting = solve_by("shooting", faces, settings),
+            passes = solve_by("passes", faces, settings);
+  for (uint32_t polygon = 0; polygon < next_polygon(faces); ++polygon) {
+    CAPTURE(polygon);
+    const double expected = mean_radiosity(matrix.solution, faces, polygon);
+    // Less than 1e-4 of all that was received is unshot. Bright shots err by less than 1 / (2 sqrt(64)) of
+    // the light at a shadow's edge, which few elements have, others by one ray's yes or no: 200 shooters and
+    // more than 16 elements a polygon leave 1 / (2 sqrt(3200)) < 1 % at four standard errors less.
+    CHECK(mean_radiosity(shooting.solution, faces, polygon) == doctest::Approx(expected).epsilon(0.01));
+    // Rows: as in the test of the series. Elements take the patches' light as a surface over them, which
+    // turns off the mean of a patch at the borders of polygons by up to the square of its size, 1 %.
+    CHECK(mean_radiosity(passes.solution, faces, polygon) == doctest::Approx(expected).epsilon(0.03));
+  }
+}
+
+TEST_CASE("shooting keeps the ledger: what is not absorbed and did not escape is unshot, shot by shot") {
+  FaceTable faces = make_blocked_room();
+  // Without its right wall the room loses light.
+  FaceTable open;
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    if (faces.polygon[f] != kRight)
+      add_polygon(open, std::span(faces.corners[f]).first(faces.corner_count[f]),
+                  {faces.emission[f], faces.reflectance[f]});
+  const SolverSettings settings = make_plain_settings(1024);
+  Run run = make_run(open, settings);
+  for (const uint32_t count : {1u, 10u, 200u, 1000u}) {
+    while (run.solution.passes.size() < count) advance_shot(run.solution, open, run.tracer, settings);
+    const PowerLedger ledger = find_power_ledger(run.solution, open, run.tracer, settings);
+    CAPTURE(count);
+    // Rows of 1024 rays tell what escapes and what the shots bring; both err by a few of a thousand. A
+    // single early shot weighs its own patch's row: 1 / (2 sqrt(1024)) of its share.
+    CHECK(ledger.closure_error <= 0.01);
+    CHECK(ledger.unshot.g > 0);
+    CHECK(ledger.escaped.g > 0);
+  }
+}
+
+TEST_CASE("a shot takes the largest unshot power, and leaves none there") {
+  const FaceTable faces = make_blocked_room();
+  const SolverSettings settings = make_plain_settings(64);
+  Run run = make_run(faces, settings);
+  Solution& s = run.solution;
+  const auto power = [&](size_t p) {
+    const Rgb unshot = s.patches.unshot[p];
+    return double{s.patches.area[p]} * s.patches.exposed[p] * double{unshot.r + unshot.g + unshot.b};
+  };
+  for (int shot = 0; shot < 50; ++shot) {
+    double most = 0;
+    for (size_t p = 0; p < s.patches.size(); ++p) most = std::max(most, power(p));
+    std::vector<double> before;
+    for (size_t p = 0; p < s.patches.size(); ++p) before.push_back(power(p));
+    const std::vector<uint32_t> shots = s.shots;
+    advance_shot(s, faces, run.tracer, settings);
+    for (size_t p = 0; p < s.patches.size(); ++p)
+      if (s.shots[p] != (shots.empty() ? 0 : shots[p])) {
+        CHECK(before[p] == doctest::Approx(most).epsilon(1e-6));
+        CHECK(power(p) == 0);
+      }
+  }
+}
+
+TEST_CASE("the ambient term guesses the end: after few shots the picture is nearer to it") {
+  const FaceTable faces = make_blocked_room();
+  SolverSettings settings = make_plain_settings(64);
+  const Run end = solve_by("matrix", faces, settings);
+  const std::vector<Rgb> converged = vertex_radiosity(end.solution, faces);
+  const auto find_error = [&](bool ambient) {
+    settings.ambient = ambient;
+    Run run = make_run(faces, settings);
+    // Half of the ceiling.
+    while (run.solution.passes.size() < 30) advance_shot(run.solution, faces, run.tracer, settings);
+    const std::vector<Rgb> shown = vertex_radiosity(run.solution, faces);
+    double error = 0;
+    for (size_t v = 0; v < shown.size(); ++v) error += double{std::abs(shown[v].g - converged[v].g)};
+    return error;
+  };
+  CHECK(find_error(true) < 0.8 * find_error(false));
+}
+
+TEST_CASE("where light never dies the matrix has no solution, and says so") {
+  FaceTable faces;
+  BoxSurfaces surfaces = make_box_surfaces(make_surface(0, 1));
+  surfaces[kCeiling].emission = Rgb(1);
+  add_box_inward(faces, Vec3(0), Vec3(1), surfaces);
+  fit_scene(faces);
+  const SolverSettings settings = make_plain_settings(64);
+  Run run = make_run(faces, settings);
+  CHECK_THROWS_AS(solve_matrix(run.solution, faces, run.tracer, settings), std::domain_error);
+}
