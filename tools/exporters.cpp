@@ -10,6 +10,7 @@ constexpr Exporter kExporters[] = {
     {"png", PixelKind::kDisplay, encode_png, nullptr},
     {"exr", PixelKind::kLayers, encode_exr, nullptr},
     {"hdr", PixelKind::kRadiosity, encode_hdr, nullptr},
+    {"svg", PixelKind::kPlots, nullptr, nullptr},
     {"csv", PixelKind::kNoPixels, nullptr, export_patches_csv},
 };
 

@@ -20,12 +20,15 @@ enum class PixelKind {
   kDisplay,    // linear light, exposed, 0..1 is what a display shows
   kRadiosity,  // mean radiosity, W/m2, no limit
   kLayers,     // the same, and channels of its parts and of what is seen
+  kPlots,      // not pictures either: drawings of how the run went (plots.h)
 };
+
+inline bool has_pixels(PixelKind kind) { return kind != PixelKind::kNoPixels && kind != PixelKind::kPlots; }
 
 struct Exporter {
   std::string_view format;  // its name on the command line and the end of its files' names
   PixelKind pixels;
-  std::string (*encode_picture)(const Picture&);                     // a picture -> the file's bytes
+  std::string (*encode_picture)(const Picture&);  // has_pixels() only: a picture -> the file's bytes
   void (*export_solution)(NewFile&, const Scene&, const Solution&);  // kNoPixels only
 };
 

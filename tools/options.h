@@ -14,7 +14,7 @@
 namespace patchlight {
 
 // kPrinted: help, versions, a schema ...: `text` holds what is to be printed.
-enum class Verb { kRender, kCheck, kVerify, kShow, kFactors, kBench, kPrinted };
+enum class Verb { kRender, kView, kCheck, kVerify, kShow, kFactors, kBench, kPrinted };
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
@@ -36,6 +36,16 @@ enum class FactorFormat { kCsv, kJson };
 struct FactorOptions {
   FactorFormat format = FactorFormat::kCsv;
   double error = 1e-3;  // of each factor, three standard errors
+};
+
+// What a patch sees: from where, and when.
+struct ViewOptions {
+  std::string polygon;
+  double u = 0.5, v = 0.5;
+  bool pass_asked = false;
+  uint32_t pass = 0;    // 0: emission alone; the last one unless asked
+  uint32_t size = 720;  // pixels, either way
+  bool label = false;
 };
 
 struct Options {
@@ -75,6 +85,7 @@ struct Options {
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;
   FactorOptions factors;
+  ViewOptions view;
   BenchOptions bench;
 };
 

@@ -109,7 +109,7 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
 bool Plan::has_pictures() const {
   return storyboard || animate_passes ||
          std::any_of(exporters.begin(), exporters.end(),
-                     [](const Exporter* exporter) { return exporter->pixels != PixelKind::kNoPixels; });
+                     [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
 }
 
 bool Plan::goes_by_passes() const { return solver->step == "pass"; }
@@ -294,6 +294,13 @@ std::string format_seconds(double seconds) {
   if (seconds >= 2 * kHour) return fmt::format("{:.3g} hours", seconds / kHour);
   if (seconds >= 2 * kMinute) return fmt::format("{:.3g} minutes", seconds / kMinute);
   return fmt::format("{:.2g} s", seconds);
+}
+
+std::string format_watts(double watts) {
+  if (watts >= 1e6) return fmt::format("{:.3g} MW", watts * 1e-6);
+  if (watts >= 1e3) return fmt::format("{:.3g} kW", watts * 1e-3);
+  if (watts >= 1 || watts <= 0) return fmt::format("{:.3g} W", watts);
+  return fmt::format("{:.3g} mW", watts * 1e3);
 }
 
 }  // namespace patchlight

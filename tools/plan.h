@@ -73,5 +73,6 @@ void check_limits(const Scene& scene, const Plan& plan);
 std::string format_count(uint64_t count);
 std::string format_bytes(uint64_t bytes);
 std::string format_seconds(double seconds);  // "0.8 s", "12 minutes", "3 days"
+std::string format_watts(double watts);      // "1.23 kW"
 
 }  // namespace patchlight

@@ -32,7 +32,7 @@ void write_snapshots(Run& run, std::span<const uint32_t> steps) {
   if (wants(run, PixelKind::kDisplay)) shown = show_values(run, lit);
   for (size_t k = 0; k < run.films.size(); ++k)
     for (const Exporter* exporter : run.plan.exporters) {
-      if (exporter->pixels == PixelKind::kNoPixels) continue;
+      if (!has_pixels(exporter->pixels)) continue;
       const bool display = exporter->pixels == PixelKind::kDisplay;
       auto picture =
           std::make_shared<Picture>(take_picture(run, run.films[k], display ? shown : lit, exporter->pixels));
@@ -118,6 +118,7 @@ void solve(Run& run, const Tracer& tracer) {
                     run.scene.file);
   }
   write_series(run);
+  write_plots(run);
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
   run.report.row_sums = find_row_sums(run.solution, run.scene.faces, run.scene.polygons.size());

@@ -4,6 +4,7 @@
 #include "exporters.h"
 #include "exposure.h"
 #include "pictures.h"
+#include "plots.h"
 
 #include <fmt/format.h>
 
@@ -145,11 +146,21 @@ void write_series(Run& run) {
   run.report.seconds.write += watch.lap();
 }
 
-std::string format_watts(double watts) {
-  if (watts >= 1e6) return fmt::format("{:.3g} MW", watts * 1e-6);
-  if (watts >= 1e3) return fmt::format("{:.3g} kW", watts * 1e-3);
-  if (watts >= 1 || watts <= 0) return fmt::format("{:.3g} W", watts);
-  return fmt::format("{:.3g} mW", watts * 1e3);
+void write_plots(Run& run) {
+  if (!wants(run, PixelKind::kPlots)) return;
+  LapWatch watch;
+  const PlotText text{.title = run.scene.title.empty() ? run.plan.stem : run.scene.title,
+                      .step = run.plan.solver->step,
+                      .metres_per_length = run.scene.units_per_length * run.scene.metres_per_unit,
+                      .until = run.scene.solver.until};
+  const std::string stem = run.folder + "/" + run.plan.stem;
+  for (const auto& [path, svg] :
+       {std::pair{stem + "-convergence.svg", plot_convergence(run.solution.passes, text)},
+        std::pair{stem + "-rounds.svg", plot_rounds(run.solution.rounds, text)}}) {
+    write_file(path, svg);
+    run.tables.push_back(path);
+  }
+  run.report.seconds.write += watch.lap();
 }
 
 }  // namespace patchlight

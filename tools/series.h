@@ -17,7 +17,7 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity);
 // Sends what was taken to its files.
 void write_series(Run& run);
 
-// 1234 W as "1.23 kW": for people, the same in every locale.
-std::string format_watts(double watts);
+// S-convergence.svg and S-rounds.svg, where they are asked for.
+void write_plots(Run& run);
 
 }  // namespace patchlight

@@ -141,3 +141,35 @@ TEST_CASE("every layer of an EXR and an HDR are written in one run") {
        {"direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B", "id", "Z"})
     CHECK(file.find(std::string(name) + '\0') != std::string::npos);
 }
+
+TEST_CASE("plots are written where they are asked for") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result =
+      run_child(render_words(folder / "box.yaml", folder / "lit", {"--format", "svg"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") == "box-convergence.svg box-report.json box-rounds.svg");
+  CHECK(read_bytes(folder / "lit/box-convergence.svg").ends_with("</svg>\n"));
+}
+
+TEST_CASE("view shows what a patch sees before and after direct light, and says what it cannot see from") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const auto look = [&](const std::string& from, const std::string& pass) {
+    return run_child({"view", folder / "box.yaml", "-o", folder / "lit", "--from", from, "--pass", pass,
+                      "--size", "64", "--max-patches", "4000"});
+  };
+  CHECK(look("floor@0.5,0.5", "0").exit_code == 0);
+  const ChildResult result = look("floor@0.5,0.5", "1");
+  INFO(result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out == (folder / "lit/box-view-floor-pass-01.png") + "\n");
+  CHECK(list_names(folder / "lit") == "box-view-floor-pass-00.png box-view-floor-pass-01.png");
+  CHECK(read_bytes(folder / "lit/box-view-floor-pass-00.png") !=
+        read_bytes(folder / "lit/box-view-floor-pass-01.png"));
+  const ChildResult unknown = look("flor@0.5,0.5", "1");
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.err.find("did you mean 'floor'?") != std::string::npos);
+  CHECK(look("floor@0.5,0.5", "99").exit_code == 3);
+}

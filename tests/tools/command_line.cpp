@@ -253,3 +253,21 @@ TEST_CASE("flags of looks and of pictures of the whole run") {
   CHECK(has(find_mistake({"render", "a.yaml", "--animation", "pases"}), "did you mean 'passes'?"));
   CHECK(has(find_mistake({"render", "a.yaml", "--false-color", "levels"}), "did you mean 'level'?"));
 }
+
+TEST_CASE("view: from where, and after which pass") {
+  const Options options =
+      parse_command_line({"view", "a.yaml", "--from", "lamps[0,1,0]@0.25,1", "--pass", "0", "--size", "300",
+                          "--label", "--tone", "filmic", "-o", "lit"});
+  CHECK(options.verb == Verb::kView);
+  CHECK(options.view.polygon == "lamps[0,1,0]");
+  CHECK(options.view.u == 0.25);
+  CHECK(options.view.v == 1);
+  CHECK(options.view.pass_asked);
+  CHECK(options.view.pass == 0);
+  CHECK(options.view.size == 300);
+  CHECK(options.view.label);
+  CHECK(options.out == "lit");
+  CHECK(has(find_mistake({"view", "a.yaml"}), "--from"));
+  for (const char* from : {"floor", "floor@0.5", "@0.5,0.5", "floor@0.5,2", "floor@a,b", "floor@0.1,0.2,0.3"})
+    CHECK_MESSAGE(has(find_mistake({"view", "a.yaml", "--from", from}), "usage: --from"), from);
+}

@@ -242,3 +242,11 @@ TEST_CASE("what is kept for pictures of several passes counts as memory") {
   options.formats = {"exr"};
   check_more(960 * 720 * 11 * sizeof(float));
 }
+
+TEST_CASE("powers are written with a unit that fits them") {
+  CHECK(format_watts(0) == "0 W");
+  CHECK(format_watts(217.4) == "217 W");
+  CHECK(format_watts(1234) == "1.23 kW");
+  CHECK(format_watts(2.4e6) == "2.4 MW");
+  CHECK(format_watts(0.127) == "127 mW");
+}
