@@ -179,6 +179,15 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
   }
 }
 
+// Unit, from the outline's first corner to the next that is another one.
+Vec3 find_first_edge(const OutlineTable& outlines, uint32_t p) {
+  const uint32_t ring = outlines.polygon_first[p], first = outlines.ring_first[ring];
+  for (uint32_t k = first + 1; k < outlines.ring_first[ring + 1]; ++k)
+    if (const DVec3 edge = outlines.corners[k] - outlines.corners[first]; glm::length(edge) > 0)
+      return Vec3(edge / glm::length(edge));
+  return Vec3(1, 0, 0);
+}
+
 void add_polygon_faces(const CutTable& table, const MaterialTable& materials, const ObjectTable& objects,
                        const OutlineTable& outlines, const Tree& tree, uint32_t p, std::vector<FaceRow>& rows,
                        Scene& scene) {
@@ -190,6 +199,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
   convert_faces(table, p, scene, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());
+  const Vec3 first_edge = find_first_edge(outlines, p);
   const auto first = static_cast<uint32_t>(scene.faces.size()), count = static_cast<uint32_t>(rows.size());
   for (int side = 0; side < (two_sided ? 2 : 1); ++side) {
     const auto polygon = static_cast<uint32_t>(scene.polygons.size());
@@ -203,6 +213,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
     scene.polygons.id.push_back(outlines.id[p] + (side == 0 ? "" : ".back"));
     scene.polygons.object.push_back(objects.top[object]);
     scene.polygons.line.push_back(line);
+    scene.polygons.first_edge.push_back(first_edge);
     scene.polygons.face_first.push_back(static_cast<uint32_t>(scene.faces.size()));
   }
 }

@@ -18,6 +18,7 @@ struct PolygonTable {
   std::vector<std::string> id;
   std::vector<uint32_t> object;      // row of Scene::object_ids: what of the list `objects` it is a part of
   std::vector<uint32_t> line;        // 1-based place in the file
+  std::vector<Vec3> first_edge;      // unit: along it u runs
   std::vector<uint32_t> face_first;  // polygons + 1: its faces are face_first[p] .. face_first[p + 1]
   size_t size() const { return id.size(); }
 };

@@ -19,21 +19,11 @@ constexpr uint32_t kSideContrast = 8, kSideHighContrast = 16;
 constexpr float kContrast = 1, kHighContrast = 3;
 constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
 
-struct Pinhole {
-  Vec3 eye, right, up, forward;  // right and up are half the picture's width and height at distance 1
-};
-
-Pinhole make_pinhole(const View& view) {
-  const Vec3 forward = normalize(view.target - view.eye), right = normalize(cross(forward, view.up));
-  const float half_height = std::tan(view.fov_degrees * kPi / 360);
-  const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-  return {view.eye, right * (half_height * aspect), cross(right, forward) * half_height, forward};
-}
-
-// One sample of the film: the element seen and where; kNone: background.
+// One sample of the film: the element seen, where, and how far along the ray; kNone: background.
 struct Seen {
   uint32_t element[kPacketSize];
   Vec2 uv[kPacketSize];
+  float distance[kPacketSize];
 };
 
 uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t cell, uint32_t guess) {
@@ -45,22 +35,20 @@ uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t c
 }
 
 // Sixteen camera rays through the points (x, y) of the picture, in pixels from the top left.
-uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole, const View& view,
-              const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements,
-              const Tracer& tracer) {
+uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Lens& lens, const FaceTable& faces,
+              const FaceFrameTable& frames, const PatchTable& elements, const Tracer& tracer) {
   HitPacket packet;
+  uint32_t active = 0, guess = kNone;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const float x = 2 * at[k].x / static_cast<float>(view.width) - 1;
-    const float y = 1 - 2 * at[k].y / static_cast<float>(view.height);
-    const Vec3 direction = normalize(pinhole.forward + x * pinhole.right + y * pinhole.up);
-    packet.ray.origin_x[k] = pinhole.eye.x, packet.ray.origin_y[k] = pinhole.eye.y;
-    packet.ray.origin_z[k] = pinhole.eye.z;
+    active |= uint32_t{lens.covers(at[k])} << k;
+    const Vec3 direction = active >> k & 1u ? lens.find_direction(at[k]) : lens.forward;
+    packet.ray.origin_x[k] = lens.eye.x, packet.ray.origin_y[k] = lens.eye.y;
+    packet.ray.origin_z[k] = lens.eye.z;
     packet.ray.direction_x[k] = direction.x, packet.ray.direction_y[k] = direction.y;
     packet.ray.direction_z[k] = direction.z;
     packet.ray.near_distance[k] = 0, packet.ray.far_distance[k] = std::numeric_limits<float>::infinity();
     seen.element[k] = kNone;
   }
-  uint32_t active = 0xffff, guess = kNone;
   uint64_t rays = 0;
   for (uint32_t through = 0; active && through < kBackSidesMax; ++through) {
     find_hits(tracer, packet, active);
@@ -70,16 +58,18 @@ uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Pinhole& pinhole,
       const uint32_t face = packet.face[k];
       RayPacket& r = packet.ray;
       const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-      if (face != kNone && dot(direction, faces.normal[face]) >= 0) {
+      const bool is_back = face != kNone && dot(direction, faces.normal[face]) >= 0;
+      if (is_back && !lens.hemisphere) {
         // A back side: go on just behind it.
         const float reached = r.far_distance[k];
-        r.near_distance[k] = reached + 2 * ray_offset(pinhole.eye + reached * direction);
+        r.near_distance[k] = reached + 2 * ray_offset(lens.eye + reached * direction);
         r.far_distance[k] = std::numeric_limits<float>::infinity();
         continue;
       }
       active &= ~(1u << k);
-      if (face == kNone) continue;
-      seen.uv[k] = find_face_parameters(frames, face, pinhole.eye + r.far_distance[k] * direction);
+      if (face == kNone || is_back) continue;
+      seen.distance[k] = r.far_distance[k];
+      seen.uv[k] = find_face_parameters(frames, face, lens.eye + r.far_distance[k] * direction);
       seen.element[k] = guess =
           find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
     }
@@ -151,25 +141,21 @@ void add_tile(PixelSum& sum, const Solution& s, const Seen& seen, float share, b
 
 // Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is
 // small and bright.
-std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pinhole, const View& view) {
+std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Lens& lens, const View& view) {
   constexpr float kSmallLamp = 32;  // pixels
   std::vector<uint8_t> pixels(size_t{view.width} * view.height, 0);
-  const float width = static_cast<float>(view.width), height = static_cast<float>(view.height);
   for (size_t f = 0; f < faces.size(); ++f) {
     if (largest(faces.emission[f]) == 0) continue;
     Vec2 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
     bool behind = false;
     for (size_t k = 0; k < 4; ++k) {
-      const Vec3 way = faces.corners[f][k] - pinhole.eye;
-      const float depth = dot(way, pinhole.forward);
-      behind |= depth <= 0;
-      const Vec2 at(dot(way, pinhole.right) / dot(pinhole.right, pinhole.right) / depth,
-                    dot(way, pinhole.up) / dot(pinhole.up, pinhole.up) / depth);
+      Vec2 at(0);
+      behind |= !lens.find_place(faces.corners[f][k], at);
       low = min(low, at), high = max(high, at);
     }
     if (behind) continue;
-    const float left = (low.x + 1) / 2 * width, right = (high.x + 1) / 2 * width;
-    const float top = (1 - high.y) / 2 * height, bottom = (1 - low.y) / 2 * height;
+    const float left = low.x, right = high.x, top = low.y, bottom = high.y;
+    const float width = lens.width, height = lens.height;
     if (right < 0 || bottom < 0 || left > width || top > height ||
         std::max(right - left, bottom - top) > kSmallLamp)
       continue;
@@ -184,7 +170,7 @@ std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Pinhole& pin
 
 // How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel
 // on shows another element lie on a line one pixel wide.
-std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, const Solution& s,
+std::vector<float> find_line_cover(const View& view, const Lens& lens, const Solution& s,
                                    const FaceTable& faces, const Tracer& tracer) {
   const size_t columns = size_t{view.width} * kSide, rows = size_t{view.height} * kSide;
   std::vector<uint32_t> shown(columns * rows);
@@ -196,7 +182,7 @@ std::vector<float> find_line_cover(const View& view, const Pinhole& pinhole, con
       for (uint32_t k = 0; k < kPacketSize; ++k)
         at[k] = Vec2(static_cast<float>(x), static_cast<float>(y)) +
                 (Vec2(static_cast<float>(k % kSide), static_cast<float>(k / kSide)) + 0.5f) / float{kSide};
-      look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+      look(seen, at, lens, faces, s.frames, s.elements, tracer);
       for (uint32_t k = 0; k < kPacketSize; ++k)
         shown[(y * kSide + k / kSide) * columns + x * kSide + k % kSide] = seen.element[k];
     }
@@ -234,11 +220,11 @@ std::vector<float> forecast_elements(const Solution& s, const FaceTable& faces) 
 
 FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view,
                     const FilmSettings& settings) {
-  assert(s.frozen);
+  assert(s.frozen || !settings.smooth);
   assert(view.width > 0 && view.height > 0);
-  const Pinhole pinhole = make_pinhole(view);
+  const Lens lens = make_lens(view);
   const std::vector<float> forecast = forecast_elements(s, faces);
-  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(faces, pinhole, view);
+  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(faces, lens, view);
   const size_t pixel_count = size_t{view.width} * view.height;
   struct Chunk {
     std::vector<uint32_t> value;
@@ -272,7 +258,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
                                  static_cast<float>(tile / tiles * 4 + k / 4));
               at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
             }
-            rays += look(seen, at, pinhole, view, faces, s.frames, s.elements, tracer);
+            rays += look(seen, at, lens, faces, s.frames, s.elements, tracer);
             add_tile(sum, s, seen, share, settings.smooth);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
               const float value = seen.element[k] == kNone ? 0 : forecast[seen.element[k]];
@@ -304,8 +290,34 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
     }
   });
   film.ray_count = ray_count;
-  if (settings.mesh_lines) film.line_cover = find_line_cover(view, pinhole, s, faces, tracer);
+  if (settings.mesh_lines) film.line_cover = find_line_cover(view, lens, s, faces, tracer);
   return film;
+}
+
+CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view) {
+  const Lens lens = make_lens(view);
+  const size_t pixel_count = size_t{view.width} * view.height;
+  CentreTable centres;
+  centres.element.assign(pixel_count, kNone);
+  centres.depth.assign(pixel_count, std::numeric_limits<float>::infinity());
+  for_rows((pixel_count + kPacketSize - 1) / kPacketSize, 16, [&](size_t begin, size_t end) {
+    Seen seen;
+    Vec2 at[kPacketSize];
+    for (size_t packet = begin; packet < end; ++packet) {
+      const size_t first = packet * kPacketSize, last = std::min(first + kPacketSize, pixel_count);
+      for (size_t k = 0; k < kPacketSize; ++k) {
+        const size_t pixel = std::min(first + k, last - 1);
+        at[k] = Vec2(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width)) + 0.5f;
+      }
+      look(seen, at, lens, faces, s.frames, s.elements, tracer);
+      for (size_t k = 0; first + k < last; ++k) {
+        if (seen.element[k] == kNone) continue;
+        centres.element[first + k] = seen.element[k];
+        centres.depth[first + k] = seen.distance[k] * dot(lens.find_direction(at[k]), lens.forward);
+      }
+    }
+  });
+  return centres;
 }
 
 std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values) {

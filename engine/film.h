@@ -2,6 +2,7 @@
 // depend on the view only, so one film serves all passes of a run.
 #pragma once
 
+#include "lens.h"
 #include "solve.h"
 
 #include <cstdint>
@@ -9,12 +10,6 @@
 #include <vector>
 
 namespace patchlight {
-
-struct View {
-  Vec3 eye, target, up;    // lengths
-  float fov_degrees = 60;  // vertical
-  uint32_t width = 0, height = 0;
-};
 
 struct FilmSettings {
   bool smooth = true;       // vertex values, bilinear; false: one value an element
@@ -34,9 +29,18 @@ struct FilmTable {
 };
 
 // Box mean of at least 16 samples a pixel; 64 or 256 where very bright and dark elements share one, such as
-// the borders of lamps and sun spots. Looks through back sides.
+// the borders of lamps and sun spots. Looks through back sides, except in a hemisphere. Smooth films need the
+// final mesh; others may be made after any round, for the values that elements have then.
 FilmTable make_film(const Solution& solution, const FaceTable& faces, const Tracer& tracer, const View& view,
                     const FilmSettings& settings);
+
+// What a ray through the centre of each pixel meets; looks through back sides. A row a pixel.
+struct CentreTable {
+  std::vector<uint32_t> element;  // kNone: nothing
+  std::vector<float> depth;       // lengths along the direction of view; infinite where there is nothing
+};
+CentreTable find_centres(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
+                         const View& view);
 
 // One colour a pixel: the weighted sums of `values` (vertices or elements, as the film was made).
 std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values);

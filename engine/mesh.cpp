@@ -171,6 +171,7 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
   inherit(s.views.seen, parent);
   inherit(s.views.hidden, parent);
   inherit(s.views.settled, parent);
+  inherit(s.reasons, parent);
   s.fresh.clear();
   for (uint32_t row = 0; row < parent.size(); ++row)
     if (marks[parent[row]]) s.fresh.push_back(row);
@@ -219,7 +220,10 @@ bool split_patches(Solution& s, const FaceTable& faces, const Tracer& tracer,
     const uint32_t patch = s.element_patch[row];
     element_marks[row] = marks[patch] && s.elements.level[row] == before.level[patch];
   }
+  const std::vector<uint8_t> asked = element_marks;
   mark_for_balance(element_marks, s.elements, s.frames, s.joints);
+  for (size_t row = 0; row < element_marks.size(); ++row)
+    if (element_marks[row]) s.reasons[row] = asked[row] ? SplitReason::kIndirect : SplitReason::kBalance;
   split_elements(s, element_marks);
   s.seconds.split += watch.read();
   find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);
@@ -285,6 +289,7 @@ Solution make_solution(const FaceTable& faces, const Tracer& tracer, const Solve
   s.views.seen.assign(count, 0);
   s.views.hidden.assign(count, 0);
   s.views.settled.assign(count, 0);
+  s.reasons.assign(count, SplitReason::kStart);
   s.fresh = all_rows(count);
   find_direct_of(s, s.fresh, faces, tracer, kStartRays, settings);
   s.seconds.trace += watch.read();
@@ -307,14 +312,15 @@ bool refine(Solution& s, const FaceTable& faces, const Tracer& tracer, const Sol
   const uint64_t rays_before = s.direct_ray_count;
   const float patch_size_min = find_patch_sizes(faces, s.frames, settings).least;
   const std::vector<float> error = find_errors(s, faces, patch_size_min);
-  const std::vector<uint8_t> marks =
-      mark_differing({s.elements, error, s.fresh, s.mean_radiosity}, s.frames, s.links, s.joints,
-                     settings.threshold, patch_size_min, settings.patch_count_max);
+  const RefineInput input{s.elements, error, s.fresh, s.mean_radiosity};
+  const std::vector<uint8_t> marks = mark_differing(input, s.frames, s.links, s.joints, settings.threshold,
+                                                    patch_size_min, settings.patch_count_max);
   const auto split_count = static_cast<uint64_t>(std::count(marks.begin(), marks.end(), 1));
   if (split_count == 0) {
     s.seconds.split += watch.read();
     return false;
   }
+  find_split_reasons(s.reasons, marks, input, s.direct, faces, s.frames, s.links, settings.threshold);
   split_elements(s, marks);
   s.seconds.split += watch.read();
   find_direct_of(s, s.fresh, faces, tracer, round_rays(settings), settings);

@@ -68,4 +68,29 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
   return mark_within_budget(std::move(candidates), excess, elements, frames, joints, patch_count_max);
 }
 
+void find_split_reasons(std::span<SplitReason> reasons, std::span<const uint8_t> marks,
+                        const RefineInput& input, std::span<const Rgb> direct, const FaceTable& faces,
+                        const FaceFrameTable& frames, const FaceLinkTable& links, float threshold) {
+  const PatchTable& elements = input.elements;
+  for_rows(elements.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      if (!marks[k]) continue;
+      const auto row = static_cast<uint32_t>(k);
+      float excess_largest = 0;
+      reasons[row] = SplitReason::kBalance;
+      for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
+        for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
+          if (other == kNone || elements.exposed[row] == 0 || elements.exposed[other] == 0) continue;
+          const float excess = find_excess(input, row, other, threshold);
+          if (excess <= excess_largest) continue;
+          excess_largest = excess;
+          const Rgb all = elements.radiosity[row] - elements.radiosity[other];
+          const Rgb reflected = faces.reflectance[elements.face[row]] * (direct[row] - direct[other]);
+          reasons[row] = largest(abs(reflected)) >= largest(abs(all - reflected)) ? SplitReason::kDirect
+                                                                                  : SplitReason::kIndirect;
+        }
+    }
+  });
+}
+
 }  // namespace patchlight

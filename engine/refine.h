@@ -22,4 +22,11 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
                                     const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
                                     float patch_size_min, uint64_t patch_count_max);
 
+// Why the marked elements are split: what their greatest difference beyond the threshold is made of, or
+// balance where there is none. direct: a row an element, irradiance that is a part of its radiosity once
+// reflected, W/m2. Rows that are not marked keep what they have.
+void find_split_reasons(std::span<SplitReason> reasons, std::span<const uint8_t> marks,
+                        const RefineInput& input, std::span<const Rgb> direct, const FaceTable& faces,
+                        const FaceFrameTable& frames, const FaceLinkTable& links, float threshold);
+
 }  // namespace patchlight

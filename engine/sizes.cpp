@@ -91,7 +91,7 @@ uint64_t count_bytes(const Solution& s) {
                s.receivers.area_until, s.receivers.centre, s.receivers.normal, s.receivers.receiver_of,
                s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.hits.nothing,
                s.hits.back, s.hits.buried, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
-               s.coarse, s.coarse_error, s.fresh) +
+               s.coarse, s.coarse_error, s.fresh, s.reasons) +
          patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
          vertex_bytes(s.element_vertices);
 }

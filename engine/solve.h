@@ -56,7 +56,8 @@ struct Solution {
   VertexTable patch_vertices;           // of the patches; of the elements once the mesh is frozen
   VertexTable element_vertices;
   AimTable aims;
-  LampViewTable views;  // a row an element
+  LampViewTable views;               // a row an element
+  std::vector<SplitReason> reasons;  // a row an element
   LeafIndex patch_index;
   ReceiverTable receivers;            // of the patches
   HitTable hits;                      // a row of rays a receiver

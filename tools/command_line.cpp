@@ -150,14 +150,28 @@ void add_picture_flags(CLI::App& app, Options& options) {
             [&](const std::string& text) { options.size = parse_size(text); });
 }
 
-// Flags that change how pictures look.
-void add_look_flags(CLI::App& app, Options& options) {
-  add_choice(app, "--shading", {"smooth", "flat"}, "smooth, or flat: one colour a patch",
-             [&](size_t choice) { options.shading = static_cast<Shading>(choice); });
+void add_out_flag(CLI::App& app, Options& options) {
+  add_value(app, "-o", "DIR", "where the files go; out unless given", [&](const std::string& text) {
+    if (text.empty()) fail_usage("-o: expected a directory");
+    options.out = text;
+  });
+}
+
+// How bright pictures are.
+void add_exposure_flags(CLI::App& app, Options& options) {
   add_value(app, "--exposure", "EV", "auto, or EV: the picture shows B * 2^EV", [&](const std::string& text) {
     options.exposure_auto = text == "auto";
     if (!options.exposure_auto) options.exposure_ev = parse_number("--exposure", text, -100, 100);
   });
+  add_choice(app, "--tone", kToneNames, "filmic: soft highlights; clip unless given",
+             [&](size_t choice) { options.look.tone = static_cast<Tone>(choice); });
+}
+
+// Flags that change how pictures look.
+void add_look_flags(CLI::App& app, Options& options) {
+  add_choice(app, "--shading", {"smooth", "flat"}, "smooth, or flat: one colour a patch",
+             [&](size_t choice) { options.shading = static_cast<Shading>(choice); });
+  add_exposure_flags(app, options);
 }
 
 // What render, check and show have in common.
@@ -176,11 +190,26 @@ void add_check_flags(CLI::App& app, Options& options) {
 void add_render_flags(CLI::App& app, Options& options) {
   add_check_flags(app, options);
   add_look_flags(app, options);
-  add_value(app, "-o", "DIR", "where the files go; out unless given", [&](const std::string& text) {
-    if (text.empty()) fail_usage("-o: expected a directory");
-    options.out = text;
-  });
+  add_out_flag(app, options);
   add_switch(app, "--mesh", options.mesh, "draw the borders of the patches");
+  add_choice(app, "--light", kLightNames,
+             "direct: emission and the light of pass 1; indirect: what later passes added; all unless given",
+             [&](size_t choice) { options.look.light = static_cast<Light>(choice); });
+  add_choice(app, "--false-color", kFalseColorNames,
+             "numbers as colours with a legend: radiosity, what the last pass added, how often a patch was "
+             "halved, why it was split",
+             [&](size_t choice) { options.look.false_color = static_cast<FalseColor>(choice); });
+  add_switch(app, "--storyboard", options.storyboard,
+             "the snapshots side by side, with labels, and below what was added from one to the next");
+  add_value(app, "--animation", "passes|rounds,...", "GIFs of all passes, of the rounds of refinement",
+            [&](const std::string& text) {
+              for (const std::string& series : split_list(text))
+                (parse_choice("--animation", series, {"passes", "rounds"}) == 0 ? options.animate_passes
+                                                                                : options.animate_rounds) =
+                    true;
+            });
+  add_choice(app, "--scale", kScaleNames, "of false colours in W/m2; auto unless given",
+             [&](size_t choice) { options.look.scale = static_cast<ScaleKind>(choice); });
   add_value(app, "--format", fmt::format("{},...", fmt::join(exporter_formats(), "|")),
             "files to write; png unless given",
             [&](const std::string& text) { options.formats = parse_formats(text); });
@@ -191,6 +220,26 @@ void add_render_flags(CLI::App& app, Options& options) {
             });
   add_switch(app, "--require-convergence", options.require_convergence,
              "exit code 6 where the passes end before `until` is reached");
+}
+
+void add_view_flags(CLI::App& app, Options& options) {
+  add_scene(app, options);
+  ViewOptions& view = options.view;
+  add_value(app, "--from", "ID@U,V", "a polygon and a point of it: 0..1 along its first edge and across",
+            [&](const std::string& text) { view = parse_place(text, view); });
+  add_value(app, "--pass", "N", "after that pass, 0 is emission alone; the last one unless given",
+            [&](const std::string& text) {
+              view.pass = static_cast<uint32_t>(parse_count("--pass", text, 0, kPassesFlagMax));
+              view.pass_asked = true;
+            });
+  add_value(app, "--size", "N", "pixels either way; 720 unless given", [&](const std::string& text) {
+    view.size = static_cast<uint32_t>(parse_count("--size", text, 1, 1'000'000));
+  });
+  add_switch(app, "--label", view.label, "write into the picture what it shows");
+  add_exposure_flags(app, options);
+  add_out_flag(app, options);
+  add_solver_flags(app, options);
+  add_talk_flags(app, options);
 }
 
 void add_verify_flags(CLI::App& app, Options& options) {
@@ -259,6 +308,7 @@ struct VerbRow {
 };
 constexpr VerbRow kVerbs[] = {
     {"render", Verb::kRender, "solve a scene, write pictures and a report", kRenderHelp, add_render_flags},
+    {"view", Verb::kView, "what does a patch see?", kViewHelp, add_view_flags},
     {"check", Verb::kCheck, "what is wrong with a scene, and what would it take?", kCheckHelp,
      add_check_flags},
     {"verify", Verb::kVerify, "does the light come out as the scene expects?", kVerifyHelp, add_verify_flags},
@@ -405,6 +455,8 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   if (row.verb == Verb::kBench) check_bench_scenes(options.bench.scenes);
   const CLI::Option* scene = verb.get_option_no_throw("SCENE");
   if (scene != nullptr && scene->get_required() && options.scene.empty()) fail_usage("expected a scene file");
+  if (row.verb == Verb::kView && options.view.polygon.empty())
+    fail_usage("view: say from where: --from ID@U,V, such as --from hall.floor@0.5,0.5");
   if (row.verb == Verb::kShow && !options.effective)
     fail_usage("show: say what: --effective shows the merged settings");
   if (row.name == std::string_view("schema")) options.text = format_schema();

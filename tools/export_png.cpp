@@ -1,22 +1,16 @@
-// Display-linear pixels -> PNG in memory, by stb_image_write. Its own file functions report success on a full
-// disk, so it never sees a file.
+// Display-linear pixels -> PNG in memory.
 #include "exporters.h"
-#include "exposure.h"
+#include "image_writer.h"
+#include "srgb.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb_image_write.h>
 
 namespace patchlight {
 namespace {
 
-// encode_srgb() from a table over the square root, in which the function is nearly straight: within 1e-5.
+// sRGB from a table over the square root, in which the function is nearly straight: within 1e-5.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -53,34 +47,20 @@ constexpr std::array<std::array<float, 8>, 8> make_bayer() {
 }
 constexpr auto kBayer = make_bayer();
 
-void take_bytes(void* context, void* data, int size) {
-  static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<size_t>(size));
-}
-
 }  // namespace
 
 std::string encode_png(const Picture& picture) {
   static const SrgbTable srgb;
   const size_t width = picture.width;
-  std::string bytes(width * picture.height * 3, '\0');
+  std::vector<uint8_t> bytes(width * picture.height * 3);
   for (size_t y = 0; y < picture.height; ++y)
     for (size_t x = 0; x < width; ++x)
       for (int k = 0; k < 3; ++k) {
         const float linear = std::clamp(picture.pixels[y * width + x][k], 0.0f, 1.0f);
         const float level = 255 * srgb.encode(linear) + kBayer[y % 8][x % 8];
-        bytes[(y * width + x) * 3 + static_cast<size_t>(k)] = static_cast<char>(static_cast<uint8_t>(level));
+        bytes[(y * width + x) * 3 + static_cast<size_t>(k)] = static_cast<uint8_t>(level);
       }
-  // Dithered gradients: of all filters "left neighbour" packs best, and the short search loses 5 % of size
-  // and halves the time.
-  stbi_write_force_png_filter = 1;
-  stbi_write_png_compression_level = 5;
-  std::string file;
-  // The sizes are int: the limits on images keep them far below 2^31.
-  const int done =
-      stbi_write_png_to_func(take_bytes, &file, static_cast<int>(width), static_cast<int>(picture.height), 3,
-                             bytes.data(), static_cast<int>(width * 3));
-  if (done == 0) throw std::bad_alloc();
-  return file;
+  return pack_png(picture.width, picture.height, bytes);
 }
 
 }  // namespace patchlight

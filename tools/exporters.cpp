@@ -8,7 +8,9 @@ namespace {
 
 constexpr Exporter kExporters[] = {
     {.format = "png", .pixels = PixelKind::kDisplay, .encode_picture = encode_png},
-    {.format = "exr", .pixels = PixelKind::kRadiosity, .encode_picture = encode_exr},
+    {.format = "exr", .pixels = PixelKind::kLayers, .encode_picture = encode_exr},
+    {.format = "hdr", .pixels = PixelKind::kRadiosity, .encode_picture = encode_hdr},
+    {.format = "svg", .pixels = PixelKind::kPlots},
     {.format = "csv",
      .pixels = PixelKind::kNoPixels,
      .name_end = "-patches",

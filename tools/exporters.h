@@ -5,6 +5,7 @@
 #include "engine/solve.h"
 #include "files.h"
 #include "pass_record.h"
+#include "picture.h"
 
 #include <cstdint>
 #include <span>
@@ -14,18 +15,16 @@
 
 namespace patchlight {
 
-// One colour a pixel, row by row from the top left.
-struct Picture {
-  uint32_t width = 0, height = 0;
-  std::vector<Rgb> pixels;
-};
-
 // What a format's pixels hold.
 enum class PixelKind {
   kNoPixels,   // not a picture: a file of the whole solution, written once
   kDisplay,    // linear light, exposed, 0..1 is what a display shows
   kRadiosity,  // mean radiosity, W/m2, no limit
+  kLayers,     // the same, and channels of its parts and of what is seen
+  kPlots,      // not pictures either: drawings of how the run went (plots.h)
 };
+
+inline bool has_pixels(PixelKind kind) { return kind != PixelKind::kNoPixels && kind != PixelKind::kPlots; }
 
 struct Exporter {
   std::string_view format;  // its name on the command line and the end of its files' names
@@ -33,7 +32,8 @@ struct Exporter {
   std::string_view name_end = "";  // what its file's name has after S, before the dot; kNoPixels only
   bool exposed = false;            // kNoPixels: it shows light as the pictures do, by the run's exposure
   uint32_t bytes_per_patch = 0;    // kNoPixels: what writing it holds at most
-  // One of these three: a picture -> the file's bytes; a solution, or the passes to it, into a file.
+  // One of these three, but for plots: a picture -> the file's bytes; a solution, or the passes to it, into a
+  // file.
   std::string (*encode_picture)(const Picture&) = nullptr;
   void (*export_solution)(NewFile&, const Scene&, const Solution&) = nullptr;
   void (*export_passes)(NewFile&, const Scene&, const Solution&, const PassRecord&) = nullptr;
@@ -46,8 +46,10 @@ const Exporter& find_exporter(std::string_view format);
 
 // export_png.cpp: 8-bit sRGB. Pixels outside 0..1 are clipped.
 std::string encode_png(const Picture& picture);
-// export_exr.cpp: float32 linear R, G, B.
+// export_exr.cpp: float32 linear R, G, B, and the picture's channels.
 std::string encode_exr(const Picture& picture);
+// export_hdr.cpp: Radiance HDR, about one part in 200 exact.
+std::string encode_hdr(const Picture& picture);
 // export_csv.cpp: a row a patch, positions and areas in the file's units.
 void export_patches_csv(NewFile& file, const Scene& scene, const Solution& solution);
 // These four write the lit mesh (lit_mesh.h), smooth or flat as scene.output.shading says, by

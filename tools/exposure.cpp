@@ -14,7 +14,16 @@ constexpr double kDisplayLevel = 0.7;
 constexpr double kEvLimit = 100;
 constexpr size_t kGrain = 4096;
 const Rgb kLineTint{0.01f, 0.03f, 0.07f};
+const Rgb kNoNumber{1, 0, 1};
 constexpr float kLineKeeps = 0.4f;  // the share of the ground's light that a line lets through
+
+// A film's curve: contrast in the middle, a toe and a shoulder (Narkowicz: ACES Filmic Tone Mapping Curve,
+// 2015, a fit to the curve of the Academy Color Encoding System).
+double bend_filmic(double exposed) {
+  // Beyond it the curve is 1; below 0 it has a pole.
+  const double x = std::clamp(exposed, 0.0, 1e6);
+  return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+}
 
 // 1 for every value that belongs to a lamp.
 std::vector<Rgb> mark_lamps(const Solution& solution, const FaceTable& faces, bool smooth) {
@@ -62,19 +71,32 @@ double pick_exposure_ev(std::span<float> brightness) {
   return std::clamp(std::round(ev * 100) / 100, -kEvLimit, kEvLimit);
 }
 
-std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev) {
+std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, Tone tone) {
   const double gain = std::exp2(ev);
-  const auto show = [&](float value) { return static_cast<float>(std::clamp(value * gain, 0.0, 1.0)); };
+  const auto show = [&](float value) {
+    const double exposed = value * gain;
+    return static_cast<float>(std::clamp(tone == Tone::kFilmic ? bend_filmic(exposed) : exposed, 0.0, 1.0));
+  };
   std::vector<Rgb> shown(values.size());
   for_rows(values.size(), kGrain, [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row)
-      shown[row] = Rgb(show(values[row].r), show(values[row].g), show(values[row].b));
+    for (size_t row = begin; row < end; ++row) {
+      const Rgb value = values[row];
+      shown[row] = std::isnan(value.r + value.g + value.b) ? kNoNumber
+                                                           : Rgb(show(value.r), show(value.g), show(value.b));
+    }
   });
   return shown;
 }
 
-float encode_srgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+void fill_nothing(std::span<Rgb> pixels, const FilmTable& film, Rgb color) {
+  for_rows(pixels.size(), kGrain, [&](size_t begin, size_t end) {
+    for (size_t pixel = begin; pixel < end; ++pixel) {
+      float shown = 0;
+      for (uint64_t k = film.pixel_first[pixel]; k < film.pixel_first[pixel + 1]; ++k)
+        shown += film.weight[k];
+      pixels[pixel] += std::max(1 - shown, 0.0f) * color;
+    }
+  });
 }
 
 void draw_mesh_lines(std::span<Rgb> pixels, std::span<const float> line_cover) {

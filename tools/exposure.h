@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/film.h"
+#include "look.h"
 
 #include <span>
 #include <vector>
@@ -19,12 +20,13 @@ void collect_brightness(std::vector<float>& brightness, const FilmTable& film, s
 // its colour. 0 where all is black. Reorders its input.
 double pick_exposure_ev(std::span<float> brightness);
 
-// Values as the display will show them: times 2^ev, clipped to 0..1. Clipping comes before the film's sums,
-// so that the edge of a bright lamp is as smooth as any other.
-std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev);
+// Values as the display will show them: times 2^ev, then through the curve of `tone` to 0..1. This comes
+// before the film's sums, so that the edge of a bright lamp is as smooth as any other. What is not a number
+// is magenta.
+std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, Tone tone = Tone::kClip);
 
-// The transfer function of sRGB (IEC 61966-2-1): display-linear 0..1 -> encoded 0..1.
-float encode_srgb(float linear);
+// Puts a colour where the film shows nothing of the scene, in parts of pixels, too.
+void fill_nothing(std::span<Rgb> pixels, const FilmTable& film, Rgb color);
 
 // Blends the lines of the mesh into display-linear pixels: darker on bright ground, bluish on dark.
 void draw_mesh_lines(std::span<Rgb> pixels, std::span<const float> line_cover);

@@ -100,6 +100,21 @@ std::vector<std::string> parse_formats(std::string_view text) {
   return formats;
 }
 
+ViewOptions parse_place(const std::string& text, ViewOptions view) {
+  const size_t at = text.rfind('@');
+  const std::vector<std::string> uv =
+      at == std::string::npos ? std::vector<std::string>{} : split_list(text.substr(at + 1));
+  if (at == 0 || uv.size() != 2)
+    fail_usage(
+        fmt::format("--from: found '{}', expected a polygon's id and a point of it, such as "
+                    "hall.floor@0.5,0.8",
+                    escape_text(text)));
+  view.polygon = text.substr(0, at);
+  view.u = parse_number("--from", uv[0], 0, 1);
+  view.v = parse_number("--from", uv[1], 0, 1);
+  return view;
+}
+
 size_t parse_choice(std::string_view flag, const std::string& text, const std::vector<std::string>& choices) {
   const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end())

@@ -9,6 +9,7 @@ constexpr const char* kMainHelp =
 Examples:
   patchlight render room.yaml                       pictures after passes 1, 2 and 16 into out/
   patchlight render room.yaml -o lit --format png,exr,csv
+  patchlight view room.yaml --from hall.floor@0.5,0.5     what a patch sees
   patchlight check room.yaml                        is the scene right, and what would it take?
   patchlight verify room.yaml                       does the light come out as the scene expects?
   patchlight show room.yaml --effective             which settings hold, and where each comes from
@@ -23,10 +24,23 @@ Examples:
   patchlight render room.yaml --passes 4 --snapshots all --size 640x480
   patchlight render room.yaml -D w=8 --set solver.threshold=0.05
   patchlight render room.yaml --camera door --exposure -3.5 --mesh
+  patchlight render room.yaml --storyboard --animation passes,rounds     for slides
+  patchlight render room.yaml --false-color radiosity                    W/m2 as colours, with a legend
   patchlight render room.yaml --format exr,csv      numbers instead of pictures
   generate_scene | patchlight render - -o lit       a scene from standard input
 
 Flags are stronger than the scene file. The paths of the files are the lines on standard output.
+)";
+
+constexpr const char* kViewHelp =
+    R"(Shows what a patch sees: all directions before it in a circle, the normal in the middle, 90 degrees off it at the rim.
+
+Examples:
+  patchlight view room.yaml --from hall.floor@0.5,0.5
+  patchlight view room.yaml --from 'pillars[0].2@0.5,0.8' --pass 0 --label    before any light is sent
+  patchlight view room.yaml --from 'pillars[0].2@0.5,0.8' --pass 1 --label    and once direct light is there
+
+u,v: 0..1 along the polygon's first edge and across, in the rectangle around it. Back sides are black.
 )";
 
 constexpr const char* kCheckHelp =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dsl/load.h"
+#include "look.h"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +14,7 @@
 namespace patchlight {
 
 // kPrinted: help, versions, a schema ...: `text` holds what is to be printed.
-enum class Verb { kRender, kCheck, kVerify, kShow, kFactors, kBench, kPrinted };
+enum class Verb { kRender, kView, kCheck, kVerify, kShow, kFactors, kBench, kPrinted };
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 constexpr uint32_t kThreadsMax = 1024;
@@ -37,6 +38,16 @@ struct FactorOptions {
   double error = 1e-3;  // of each factor, three standard errors
 };
 
+// What a patch sees: from where, and when.
+struct ViewOptions {
+  std::string polygon;
+  double u = 0.5, v = 0.5;
+  bool pass_asked = false;
+  uint32_t pass = 0;    // 0: emission alone; the last one unless asked
+  uint32_t size = 720;  // pixels, either way
+  bool label = false;
+};
+
 struct Options {
   Verb verb = Verb::kPrinted;
   std::string text;
@@ -53,6 +64,8 @@ struct Options {
   std::optional<std::array<uint32_t, 2>> size;  // width, height, pixels
   std::optional<Shading> shading;
   bool mesh = false;
+  Look look;
+  bool storyboard = false, animate_passes = false, animate_rounds = false;
   bool exposure_auto = false;  // asked for by name: stronger than an EV in the scene
   std::optional<double> exposure_ev;
   std::optional<uint32_t> rays;
@@ -72,6 +85,7 @@ struct Options {
   bool json = false;
   ColorChoice color = ColorChoice::kAuto;
   FactorOptions factors;
+  ViewOptions view;
   BenchOptions bench;
 };
 

@@ -1,6 +1,7 @@
 // Options over scene -> Plan, and the limits.
 #include "plan.h"
 
+#include "animation.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
 #include "engine/film.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr uint64_t kFilmBytesPerPixel = 160;
 // Colours, bytes and the compressor's table, of two pictures on their way to a file.
 constexpr uint64_t kPictureBytesPerPixel = 64;
+// Two pictures with their channels, each as columns of its own, as the library's blocks and as its file.
+constexpr uint64_t kLayerBytesPerPixel = 340;
 // What is likely: the film itself; the same and pictures in the making; the program with its libraries.
 constexpr double kFilmBytesLikely = 44, kPictureBytesLikely = 60, kProgramBytesLikely = 12e6;
 constexpr double kPictureSeconds = 0.1e-6;  // a pixel and snapshot: shown and encoded
@@ -27,6 +30,34 @@ constexpr double kShareOfThreads = 0.95;    // of their number
 template <class Value, class Asked>
 void override_with(Value& value, const std::optional<Asked>& asked) {
   if (asked) value = static_cast<Value>(*asked);
+}
+
+// What is kept for pictures of several passes: the light of some of them, and frames.
+uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
+  // Somewhat more corners than patches, a colour each; a film of a round's patches with its lines.
+  constexpr uint64_t kLightBytesPerPatch = 15, kRoundsMost = 16;
+  const bool parts = plan.look.light != Light::kAll ||
+                     std::any_of(plan.exporters.begin(), plan.exporters.end(), [](const Exporter* exporter) {
+                       return exporter->pixels == PixelKind::kLayers;
+                     });
+  const uint64_t kept = (parts ? 1u : 0u) + (plan.storyboard ? 1u : 0u) +
+                        (plan.look.false_color == FalseColor::kResidual ? 2u : 0u);
+  uint64_t bytes = kept * kLightBytesPerPatch * scene.solver.patch_count_max;
+  const uint64_t frames =
+      (plan.animate_passes ? scene.solver.pass_count_max : 0) + (plan.animate_rounds ? kRoundsMost : 0);
+  for (const Camera& camera : plan.cameras) bytes += frames * count_frame_bytes(camera.width, camera.height);
+  return bytes;
+}
+
+// Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
+void check_look(const Plan& plan) {
+  if (plan.goes_by_passes()) return;
+  std::string flag;
+  if (plan.look.light != Light::kAll) flag = "--light";
+  if (plan.look.false_color == FalseColor::kResidual) flag = "--false-color residual";
+  if (plan.animate_passes) flag = "--animation passes";
+  if (!flag.empty())
+    throw UserError("usage", fmt::format("{}: expected --solver passes, found {}", flag, plan.solver->name));
 }
 
 std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
@@ -76,14 +107,16 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
 }  // namespace
 
 bool Plan::has_pictures() const {
-  return std::any_of(exporters.begin(), exporters.end(),
-                     [](const Exporter* exporter) { return exporter->pixels != PixelKind::kNoPixels; });
+  return storyboard || animate_passes ||
+         std::any_of(exporters.begin(), exporters.end(),
+                     [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
 }
 
 bool Plan::is_exposed() const {
-  return std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
-    return exporter->pixels == PixelKind::kDisplay || exporter->exposed;
-  });
+  return storyboard || animate_passes ||
+         std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
+           return exporter->pixels == PixelKind::kDisplay || exporter->exposed;
+         });
 }
 
 bool Plan::records_passes() const {
@@ -94,6 +127,8 @@ bool Plan::records_passes() const {
 bool makes_films(const Plan& plan, const Scene& scene) {
   return plan.has_pictures() || (plan.is_exposed() && !scene.output.exposure_ev);
 }
+
+bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
 std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count) {
   std::vector<uint32_t> passes;
@@ -146,6 +181,11 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.cameras = pick_cameras(scene, options);
   plan.cameras_named = scene.cameras.size() > 1;
   plan.mesh = options.mesh;
+  plan.look = options.look;
+  plan.storyboard = options.storyboard;
+  plan.animate_passes = options.animate_passes;
+  plan.animate_rounds = options.animate_rounds;
+  check_look(plan);
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
   plan.limits = options.load.limits;
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
@@ -157,15 +197,34 @@ Plan make_plan(Scene& scene, const Options& options) {
   return plan;
 }
 
+std::string name_steps(std::string_view step) {
+  return fmt::format("{}{}", step, step == "pass" ? "es" : "s");
+}
+
+std::string name_camera(const Plan& plan, const Camera& camera) {
+  return plan.cameras_named ? plan.stem + "-" + camera.name : plan.stem;
+}
+
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter) {
-  const bool flat = scene.output.shading == Shading::kFlat;
-  const bool mesh = plan.mesh && exporter.pixels == PixelKind::kDisplay;
+  const bool display = exporter.pixels == PixelKind::kDisplay, mesh = plan.mesh && display;
+  // Of levels and reasons there are flat pictures only, and beside them only flat numbers.
+  const bool of_patches = is_of_patches(plan.look.false_color);
+  const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
+  const auto name = [](bool named, const std::vector<std::string>& names, auto choice) {
+    return named ? "-" + names[static_cast<size_t>(choice)] : "";
+  };
+  const Look& look = plan.look;
+  const bool colored = display && look.false_color != FalseColor::kOff;
+  const bool lit = !colored || look.false_color == FalseColor::kRadiosity;
   const int digits = plan.solver->step == "shot" ? 6 : 2;
   const std::string place =
       step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
-  return fmt::format("{}{}{}-{}{}{}{}.{}", plan.stem, plan.cameras_named ? "-" : "",
-                     plan.cameras_named ? camera.name : "", place, scene.solver.ambient ? "-ambient" : "",
+  return fmt::format("{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place,
+                     scene.solver.ambient ? "-ambient" : "",
+                     name(lit && look.light != Light::kAll, kLightNames, look.light),
+                     name(colored, kFalseColorNames, look.false_color),
+                     name(display && !colored && look.tone != Tone::kClip, kToneNames, look.tone),
                      flat ? "-flat" : "", mesh ? "-mesh" : "", exporter.format);
 }
 
@@ -184,7 +243,10 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
     pixels_largest = std::max(pixels_largest, pixels);
     bytes += pixels * kFilmBytesPerPixel;
   }
-  return bytes + pixels_largest * kPictureBytesPerPixel;
+  bytes += pixels_largest * kPictureBytesPerPixel + forecast_series_bytes(scene, plan);
+  for (const Exporter* exporter : plan.exporters)
+    if (exporter->pixels == PixelKind::kLayers) bytes += pixels_largest * kLayerBytesPerPixel;
+  return bytes;
 }
 
 RunForecast forecast_run(const Scene& scene, const Plan& plan) {
@@ -253,6 +315,13 @@ std::string format_seconds(double seconds) {
   if (seconds >= 2 * kHour) return fmt::format("{:.3g} hours", seconds / kHour);
   if (seconds >= 2 * kMinute) return fmt::format("{:.3g} minutes", seconds / kMinute);
   return fmt::format("{:.2g} s", seconds);
+}
+
+std::string format_watts(double watts) {
+  if (watts >= 1e6) return fmt::format("{:.3g} MW", watts * 1e-6);
+  if (watts >= 1e3) return fmt::format("{:.3g} kW", watts * 1e-3);
+  if (watts >= 1 || watts <= 0) return fmt::format("{:.3g} W", watts);
+  return fmt::format("{:.3g} mW", watts * 1e3);
 }
 
 }  // namespace patchlight

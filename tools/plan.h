@@ -21,6 +21,8 @@ struct Plan {
   std::vector<Camera> cameras;      // the asked ones, with the asked size
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
+  Look look;
+  bool storyboard = false, animate_passes = false, animate_rounds = false;
   std::vector<const Exporter*> exporters;
   Limits limits;
   uint64_t bytes_max = 0;   // what the run may hold at its peak
@@ -30,6 +32,7 @@ struct Plan {
   bool has_pictures() const;
   bool is_exposed() const;      // something that it writes shows light as a display does
   bool records_passes() const;  // something that it writes shows all passes
+  bool goes_by_passes() const;  // a step is a bounce of light
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -44,12 +47,18 @@ std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool al
 // The scene file's name without its folder and .yaml; "scene" for standard input.
 std::string pick_stem(const std::string& scene_file, const std::string& basename);
 
-// S-pass-02-flat-mesh.png, S-shot-000100-ambient.png, S-solution.png and the like.
+// S, or S-CAMERA where the scene has several.
+std::string name_camera(const Plan& plan, const Camera& camera);
+
+// S-pass-02-direct-flat-mesh.png, S-shot-000100-ambient.png, S-solution.png and the like.
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
 
 // True where the run looks through its cameras: for pictures, or to find an exposure by.
 bool makes_films(const Plan& plan, const Scene& scene);
+
+// More than one step: passes, shots.
+std::string name_steps(std::string_view step);
 
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);
@@ -69,5 +78,6 @@ void check_limits(const Scene& scene, const Plan& plan);
 std::string format_count(uint64_t count);
 std::string format_bytes(uint64_t bytes);
 std::string format_seconds(double seconds);  // "0.8 s", "12 minutes", "3 days"
+std::string format_watts(double watts);      // "1.23 kW"
 
 }  // namespace patchlight

@@ -10,6 +10,7 @@
 #include "render.h"
 #include "show.h"
 #include "verify.h"
+#include "view.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,8 @@ int run_verb(const Options& options, Talk& talk) {
   switch (options.verb) {
     case Verb::kRender:
       return render(options, talk);
+    case Verb::kView:
+      return view(options, talk);
     case Verb::kCheck:
       return check(options, talk);
     case Verb::kVerify:

@@ -2,11 +2,9 @@
 // asked picture is on its way to its file as soon as its pass is done.
 #include "render.h"
 
-#include "engine/film.h"
 #include "engine/parallel.h"
-#include "export_report.h"
-#include "exposure.h"
-#include "files.h"
+#include "pictures.h"
+#include "series.h"
 #include "start.h"
 #include "stop.h"
 
@@ -16,127 +14,31 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 namespace patchlight {
 namespace {
 
 constexpr int kExitNotConverged = 6;
 
-// More than one.
-std::string name_steps(std::string_view step) {
-  return fmt::format("{}{}", step, step == "pass" ? "es" : "s");
-}
-
 double sum_channels(const DRgb& power) { return power.r + power.g + power.b; }
-
-struct Stopwatch {
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  // Seconds since it was made or last asked.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start, now)).count();
-  }
-};
-
-// All that a run gathers.
-struct Run {
-  Talk& talk;
-  Scene scene;
-  Plan plan;
-  std::string folder;
-  Solution solution;
-  std::vector<FilmTable> films;  // a row a camera, once made
-  PassRecord record;             // of passes so far, where a format asks for it
-  RunReport report;
-  std::vector<std::string> tables, pictures;  // paths of files, written or on their way
-  JobQueue jobs;
-  explicit Run(Talk& talk_of_program) : talk(talk_of_program) {}
-};
-
-View make_view(const Camera& camera) {
-  return {.eye = Vec3(camera.eye),
-          .target = Vec3(camera.target),
-          .up = Vec3(camera.up),
-          .fov_degrees = static_cast<float>(camera.fov_degrees),
-          .width = camera.width,
-          .height = camera.height};
-}
-
-uint64_t count_film_bytes(const FilmTable& film) {
-  return film.pixel_first.size() * sizeof(uint64_t) + film.value.size() * sizeof(uint32_t) +
-         film.weight.size() * sizeof(float) + film.line_cover.size() * sizeof(float);
-}
-
-bool is_smooth(const Run& run) { return run.scene.output.shading == Shading::kSmooth; }
-
-bool wants(const Run& run, PixelKind pixels) {
-  for (const Exporter* exporter : run.plan.exporters)
-    if (exporter->pixels == pixels) return true;
-  return false;
-}
-
-void make_films(Run& run, const Tracer& tracer) {
-  Stopwatch watch;
-  for (const Camera& camera : run.plan.cameras) {
-    const FilmSettings settings{
-        .smooth = is_smooth(run), .mesh_lines = run.plan.mesh, .seed = run.scene.solver.seed};
-    run.films.push_back(make_film(run.solution, run.scene.faces, tracer, make_view(camera), settings));
-    run.report.film_rays += run.films.back().ray_count;
-    run.report.film_bytes += count_film_bytes(run.films.back());
-  }
-  run.report.seconds.render += watch.lap();
-}
-
-// The mean over each element's corners of what is known at vertices.
-std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& faces,
-                                 std::span<const Rgb> vertex_values) {
-  std::vector<Rgb> values(solution.elements.size());
-  for (size_t row = 0; row < values.size(); ++row) {
-    const int corner_count = faces.corner_count[solution.elements.face[row]];
-    for (int k = 0; k < corner_count; ++k)
-      values[row] += vertex_values[solution.element_vertices.leaf_vertex[row][k]];
-    values[row] /= static_cast<float>(corner_count);
-  }
-  return values;
-}
-
-// One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass,
-// so that a finished picture stays right whatever comes later.
-void fix_exposure(Run& run) {
-  Stopwatch watch;
-  if (!run.scene.output.exposure_ev) {
-    std::vector<Rgb> values = vertex_radiosity_forecast(run.solution, run.scene.faces);
-    if (!is_smooth(run)) values = average_corners(run.solution, run.scene.faces, values);
-    std::vector<float> brightness;
-    for (const FilmTable& film : run.films)
-      collect_brightness(brightness, film, values, run.solution, run.scene.faces, is_smooth(run));
-    run.scene.output.exposure_ev = pick_exposure_ev(brightness);
-  }
-  run.report.exposure_ev = run.scene.output.exposure_ev;
-  run.report.seconds.render += watch.lap();
-}
-
-Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb> values, PixelKind pixels) {
-  Picture picture{film.width, film.height, expose(film, values)};
-  if (pixels == PixelKind::kDisplay && run.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
-  return picture;
-}
 
 // Sends the pictures of the current state to the files of all `steps`.
 void write_snapshots(Run& run, std::span<const uint32_t> steps) {
   if (steps.empty() || !run.plan.has_pictures()) return;
-  Stopwatch watch;
-  const std::vector<Rgb> radiosity =
-      is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
+  LapWatch watch;
+  const std::vector<Rgb> radiosity = find_radiosity(run);
+  check_values(run, radiosity);
+  take_snapshot(run, radiosity);
+  const std::vector<Rgb> lit = pick_light(run.light, radiosity, run.plan.look.light);
   std::vector<Rgb> shown;
-  if (wants(run, PixelKind::kDisplay)) shown = expose_values(radiosity, *run.scene.output.exposure_ev);
+  if (wants(run, PixelKind::kDisplay)) shown = show_values(run, lit);
   for (size_t k = 0; k < run.films.size(); ++k)
     for (const Exporter* exporter : run.plan.exporters) {
-      if (exporter->pixels == PixelKind::kNoPixels) continue;
+      if (!has_pixels(exporter->pixels)) continue;
       const bool display = exporter->pixels == PixelKind::kDisplay;
-      auto picture = std::make_shared<Picture>(
-          take_picture(run, run.films[k], display ? shown : radiosity, exporter->pixels));
+      auto picture =
+          std::make_shared<Picture>(take_picture(run, run.films[k], display ? shown : lit, exporter->pixels));
+      if (exporter->pixels == PixelKind::kLayers) add_layers(*picture, run, k, radiosity);
       std::vector<std::string> paths;
       for (const uint32_t step : steps)
         paths.push_back(run.folder + "/" +
@@ -152,7 +54,7 @@ void write_snapshots(Run& run, std::span<const uint32_t> steps) {
 }
 
 void write_tables(Run& run) {
-  Stopwatch watch;
+  LapWatch watch;
   for (const Exporter* exporter : run.plan.exporters) {
     if (exporter->pixels != PixelKind::kNoPixels) continue;
     NewFile file;
@@ -170,6 +72,7 @@ void write_tables(Run& run) {
 
 void refine_all(Run& run, const Tracer& tracer) {
   const auto tell = [&] {
+    take_round(run, tracer);
     say_progress(run.talk, fmt::format("refining: {} patches", format_count(run.solution.elements.size())));
   };
   run.solution = make_solution(run.scene.faces, tracer, run.scene.solver);
@@ -198,6 +101,8 @@ void advance_all(Run& run, const Tracer& tracer) {
     last = converged || step.pass == run.plan.step_count_max;
     if (last) run.report.stopped_reason = converged ? "converged" : name_steps(solver.step);
     say_step(run, step);
+    keep_light(run);
+    take_pass(run);
     if (run.plan.records_passes())
       record_pass(run.record, run.solution, run.scene.faces, *run.scene.output.exposure_ev, last);
     // A run that ends early writes all that was asked for.
@@ -212,8 +117,8 @@ void advance_all(Run& run, const Tracer& tracer) {
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
   freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  if (makes_films(run.plan, run.scene)) make_films(run, tracer);
-  if (run.plan.is_exposed()) fix_exposure(run);
+  if (makes_films(run.plan, run.scene)) start_pictures(run, tracer);
+  if (run.plan.is_exposed()) run.report.exposure_ev = run.scene.output.exposure_ev;
   try {
     advance_all(run, tracer);
   } catch (const std::domain_error&) {
@@ -222,6 +127,8 @@ void solve(Run& run, const Tracer& tracer) {
                     "reflectance must be below 1, or some light must leave",
                     run.scene.file);
   }
+  write_series(run);
+  write_plots(run);
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
   run.report.health = find_health(run.scene, run.solution, tracer);
@@ -229,7 +136,7 @@ void solve(Run& run, const Tracer& tracer) {
   run.report.solution_hash = find_solution_hash(run.solution);
 }
 
-void write_report(Run& run, const std::string& path, Stopwatch& whole) {
+void write_report(Run& run, const std::string& path, LapWatch& whole) {
   StageSeconds& seconds = run.report.seconds;
   seconds.trace = run.solution.seconds.trace;
   seconds.split = run.solution.seconds.split;
@@ -302,7 +209,7 @@ void warn_not_converged(Run& run) {
 }  // namespace
 
 int render(const Options& options, Talk& talk) {
-  Stopwatch whole, watch;
+  LapWatch whole, watch;
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
   Run run(talk);

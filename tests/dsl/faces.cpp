@@ -102,6 +102,19 @@ TEST_CASE("a two-sided polygon has twins back to back, and a row ID.back") {
   }
 }
 
+TEST_CASE("every polygon keeps the direction of its first edge") {
+  const Scene scene = load(kBase +
+                           "  - {id: leaf, polygon: [[2,0,0],[2,0,0],[2,3,0],[1,1,0]], material: white, "
+                           "two_sided: true}\n")
+                          .scene;
+  REQUIRE(scene.polygons.first_edge.size() == scene.polygons.size());
+  CHECK(scene.polygons.first_edge[0] == Vec3(0, 0, 1));
+  CHECK(scene.polygons.first_edge[1] == Vec3(1, 0, 0));
+  // Corners that repeat make no edge.
+  CHECK(scene.polygons.first_edge[2] == Vec3(0, 1, 0));
+  CHECK(scene.polygons.first_edge[3] == Vec3(0, 1, 0));
+}
+
 TEST_CASE("face rows of a polygon are one range") {
   const Loaded loaded = load(
       kBase + "  - {id: long, quad: {size: [9,1], center: [0,5,0]}, material: white, two_sided: true}\n");

@@ -181,3 +181,105 @@ TEST_CASE("film: one view and seed give one film, whatever the threads") {
   CHECK(a.value == b.value);
   CHECK(a.weight == b.weight);
 }
+
+TEST_CASE("film: the ray through a pixel's centre tells the element and the depth along the view") {
+  FaceTable faces;
+  add_quad(faces, {-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0},
+           make_surface(1, 0.5f));
+  const Run run = run_scene(faces, {}, 1);
+  View view = make_view({0, 0, 2}, Vec3(0), 9, 5);
+  view.fov_degrees = static_cast<float>(2 * std::atan(0.3) * 180 / std::numbers::pi);
+  const CentreTable centres = find_centres(run.solution, faces, run.tracer, view);
+  REQUIRE(centres.element.size() == 45);
+  REQUIRE(centres.depth.size() == 45);
+  for (uint32_t pixel = 0; pixel < 45; ++pixel) {
+    // The picture is 1.2 high at the square, a pixel 0.24.
+    const float x = 0.24f * (static_cast<float>(pixel % 9) - 4),
+                y = -0.24f * (static_cast<float>(pixel / 9) - 2);
+    if (std::abs(x) > 0.5f) {
+      CHECK(centres.element[pixel] == kNone);
+      CHECK(std::isinf(centres.depth[pixel]));
+      continue;
+    }
+    // The square is flat across the view: one depth everywhere.
+    CHECK(centres.depth[pixel] == doctest::Approx(2).epsilon(1e-5));
+    const PatchTable& elements = run.solution.elements;
+    const uint32_t row = centres.element[pixel];
+    REQUIRE(row < elements.size());
+    const auto corners =
+        cell_corners(run.solution.frames, elements.face[row], elements.cell[row], elements.level[row]);
+    CHECK(x >= corners[0].x - 1e-5f);
+    CHECK(x <= corners[2].x + 1e-5f);
+    CHECK(y >= corners[0].y - 1e-5f);
+    CHECK(y <= corners[2].y + 1e-5f);
+  }
+}
+
+TEST_CASE("film: a flat one can be made before the mesh is final") {
+  const FaceTable faces = make_room(true);
+  const Tracer tracer = make_tracer(faces);
+  Solution solution = make_solution(faces, tracer, {});
+  const View view = make_view({0.1f, 0.1f, 0.35f}, {0.3f, 0.25f, 0.05f}, 16, 12);
+  do {
+    const FilmTable film = make_film(solution, faces, tracer, view, {false, true, 1});
+    check_shape(film, view, solution.elements.size());
+    CHECK(film.line_cover.size() == 16 * 12);
+  } while (refine(solution, faces, tracer, {}));
+}
+
+TEST_CASE("film: a lens finds the place of what it looks at, flat or as a hemisphere") {
+  for (const bool hemisphere : {false, true}) {
+    View view = make_view({0.1f, 0.2f, 0.3f}, {0.5f, 0.1f, 0.9f}, 80, 60);
+    view.hemisphere = hemisphere;
+    const Lens lens = make_lens(view);
+    for (const Vec2& at : {Vec2(40, 30), Vec2(25.5f, 31), Vec2(50, 12), Vec2(60, 45.25f)}) {
+      REQUIRE(lens.covers(at));
+      const Vec3 direction = lens.find_direction(at);
+      CHECK(length(direction) == doctest::Approx(1).epsilon(1e-6));
+      Vec2 back(0);
+      REQUIRE(lens.find_place(view.eye + 3.0f * direction, back));
+      CHECK(length(back - at) < 1e-3f);
+    }
+    Vec2 none(0);
+    CHECK(!lens.find_place(view.eye - lens.forward, none));
+  }
+}
+
+TEST_CASE("film: in a hemisphere, angles from the middle are distances from it") {
+  View view = make_view(Vec3(0), {0, 1, 0}, 100, 100);
+  view.up = {0, 0, -1};
+  view.hemisphere = true;
+  const Lens lens = make_lens(view);
+  // Half way to the right: 45 degrees towards -x, which is on the right of who lies on the back, head to -z.
+  const Vec3 direction = lens.find_direction({75, 50});
+  CHECK(direction.x == doctest::Approx(-std::sqrt(0.5)).epsilon(1e-5));
+  CHECK(direction.y == doctest::Approx(std::sqrt(0.5)).epsilon(1e-5));
+  CHECK(lens.covers({99.9f, 50}));
+  CHECK(!lens.covers({100.1f, 50}));
+  CHECK(!lens.covers({1, 1}));
+}
+
+TEST_CASE("film: a hemisphere is full in a closed room, empty outside of its circle, and shows no backs") {
+  const FaceTable faces = make_room(true);
+  const Run run = run_scene(faces, {}, 1);
+  View view = make_view({0.2f, 1e-5f, 0.2f}, {0.2f, 1, 0.2f}, 48, 48);
+  view.up = {0, 0, -1};
+  view.hemisphere = true;
+  const FilmTable film = make_film(run.solution, faces, run.tracer, view, {true, false, 1});
+  check_shape(film, view, run.solution.element_vertices.size());
+  const Lens lens = make_lens(view);
+  for (uint32_t pixel = 0; pixel < 48 * 48; ++pixel) {
+    const Vec2 at(static_cast<float>(pixel % 48) + 0.5f, static_cast<float>(pixel / 48) + 0.5f);
+    const float share = length(lens.from_middle(at));
+    if (share < 0.96f) CHECK(weight_sum(film, pixel) == doctest::Approx(1).epsilon(1e-5));
+    if (share > 1.04f) CHECK(weight_sum(film, pixel) == 0);
+  }
+  // Downwards from under the lamp: the floor. From above it: its back, which hides the floor and shows
+  // nothing.
+  view.eye = {0.2f, 0.3985f, 0.2f}, view.target = {0.2f, 0, 0.2f};
+  const FilmTable down = make_film(run.solution, faces, run.tracer, view, {true, false, 1});
+  CHECK(weight_sum(down, 24 * 48 + 24) == doctest::Approx(1).epsilon(1e-5));
+  view.eye = {0.2f, 0.39995f, 0.2f};
+  const FilmTable above = make_film(run.solution, faces, run.tracer, view, {true, false, 1});
+  CHECK(weight_sum(above, 24 * 48 + 24) == 0);
+}

@@ -149,3 +149,29 @@ TEST_CASE("refine: the tree stays balanced and is not split below the deepest le
   CHECK(deepest >= kLevelMax - 2);
   CHECK(deepest < kLevelMax);
 }
+
+TEST_CASE(
+    "refine: a split is told by what its greatest difference is made of, and by balance where there is "
+    "none") {
+  Field field = make_field(0.8f, 1);
+  field.faces.reflectance[0] = Rgb(0.5f);
+  std::vector<Rgb> direct(64, Rgb(0));
+  // Below, the difference is one of direct light; above, direct light is even.
+  for (uint32_t row = 0; row < 64; ++row) {
+    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    if (c.x > 0.5f && c.y < 0.5f) direct[row] = Rgb(0, 0.4f, 0);
+  }
+  std::vector<uint8_t> marks = mark(field, 0.1f, 0, kPlenty, 0);
+  const uint32_t far = 0;  // a corner, whose neighbours are as bright as it is
+  marks[far] = 1;
+  std::vector<SplitReason> reasons(64, SplitReason::kStart);
+  find_split_reasons(reasons, marks, {field.elements, field.error, field.fresh, 0}, direct, field.faces,
+                     field.frames, field.links, 0.1f);
+  for (uint32_t row = 0; row < 64; ++row) {
+    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    SplitReason expected = SplitReason::kStart;
+    if (row == far) expected = SplitReason::kBalance;
+    if (row != far && marks[row]) expected = c.y < 0.5f ? SplitReason::kDirect : SplitReason::kIndirect;
+    CHECK((reasons[row] == expected));
+  }
+}

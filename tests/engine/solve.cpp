@@ -56,6 +56,7 @@ TEST_CASE("solve: every patch is a union of elements, and neighbours differ by o
   const Run run = run_scene(faces, {}, 0);
   const Solution& s = run.solution;
   REQUIRE(s.element_first.size() == s.patches.size() + 1);
+  REQUIRE(s.reasons.size() == s.elements.size());
   for (uint32_t p = 0; p < s.patches.size(); ++p) {
     double area = 0;
     for (uint32_t row = s.element_first[p]; row < s.element_first[p + 1]; ++row) {

@@ -32,7 +32,7 @@ TEST_CASE("render with all of its flags") {
                                               "--seed",    "7",           "--max-patches", "5000",
                                               "--format",  "exr,csv,exr", "--report",      "r.json",
                                               "--quiet",   "--color",     "never",         "--form-factors",
-                                              "recompute", "room.yaml"});
+                                              "recompute", "--light",     "indirect",      "room.yaml"});
   CHECK(options.verb == Verb::kRender);
   CHECK(options.scene == "room.yaml");
   CHECK(options.out == "lit");
@@ -43,6 +43,7 @@ TEST_CASE("render with all of its flags") {
   CHECK((*options.size)[1] == 48);
   CHECK(options.mesh);
   CHECK((options.shading == Shading::kFlat));
+  CHECK((options.look.light == Light::kIndirect));
   CHECK(options.exposure_ev == -3.5);
   CHECK(options.rays == 32u);
   CHECK(options.threads == 3u);
@@ -105,7 +106,8 @@ TEST_CASE("words in place of numbers: --snapshots all, --exposure auto") {
 }
 
 TEST_CASE("the command line may ask for more passes than a scene file may") {
-  const Options options = parse_command_line({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
+  const Options options =
+      parse_command_line({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
   CHECK(options.passes == 20000u);
   CHECK(options.snapshots == std::vector<uint32_t>{15000});
 }
@@ -235,4 +237,37 @@ TEST_CASE("numbers are read whole") {
   CHECK(parse_count("--seed", "0", 0, 10) == 0);
   CHECK(parse_count("--seed", "18446744073709551615", 0, ~uint64_t{0}) == ~uint64_t{0});
   CHECK_THROWS_AS(parse_count("--seed", "18446744073709551616", 0, ~uint64_t{0}), UserError);
+}
+
+TEST_CASE("flags of looks and of pictures of the whole run") {
+  const Options options =
+      parse_command_line({"render", "a.yaml", "--tone", "filmic", "--false-color", "residual", "--scale",
+                          "log", "--storyboard", "--animation", "rounds,passes"});
+  CHECK((options.look.tone == Tone::kFilmic));
+  CHECK((options.look.false_color == FalseColor::kResidual));
+  CHECK((options.look.scale == ScaleKind::kLog));
+  CHECK(options.storyboard);
+  CHECK(options.animate_passes);
+  CHECK(options.animate_rounds);
+  CHECK(!parse_command_line({"render", "a.yaml", "--animation", "rounds"}).animate_passes);
+  CHECK(has(find_mistake({"render", "a.yaml", "--animation", "pases"}), "did you mean 'passes'?"));
+  CHECK(has(find_mistake({"render", "a.yaml", "--false-color", "levels"}), "did you mean 'level'?"));
+}
+
+TEST_CASE("view: from where, and after which pass") {
+  const Options options =
+      parse_command_line({"view", "a.yaml", "--from", "lamps[0,1,0]@0.25,1", "--pass", "0", "--size", "300",
+                          "--label", "--tone", "filmic", "-o", "lit"});
+  CHECK(options.verb == Verb::kView);
+  CHECK(options.view.polygon == "lamps[0,1,0]");
+  CHECK(options.view.u == 0.25);
+  CHECK(options.view.v == 1);
+  CHECK(options.view.pass_asked);
+  CHECK(options.view.pass == 0);
+  CHECK(options.view.size == 300);
+  CHECK(options.view.label);
+  CHECK(options.out == "lit");
+  CHECK(has(find_mistake({"view", "a.yaml"}), "--from"));
+  for (const char* from : {"floor", "floor@0.5", "@0.5,0.5", "floor@0.5,2", "floor@a,b", "floor@0.1,0.2,0.3"})
+    CHECK_MESSAGE(has(find_mistake({"view", "a.yaml", "--from", from}), "usage: --from"), from);
 }

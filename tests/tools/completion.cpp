@@ -44,7 +44,7 @@ TEST_CASE("both scripts offer every verb and every flag that help lists") {
   const std::string bash = parse_command_line({"completion", "bash"}).text;
   const std::string zsh = parse_command_line({"completion", "zsh"}).text;
   CHECK(zsh.starts_with("#compdef patchlight\n"));
-  for (const char* verb : {"render", "check", "verify", "show", "bench", "schema", "completion"}) {
+  for (const char* verb : {"render", "view", "check", "verify", "show", "bench", "schema", "completion"}) {
     CAPTURE(verb);
     CHECK(bash.find(std::string("    ") + verb + ")\n") != std::string::npos);
     CHECK(zsh.find(std::string("    ") + verb + ")\n") != std::string::npos);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace patchlight;
 
@@ -63,4 +64,42 @@ TEST_CASE("lines of the mesh darken light ground and stay visible on black") {
   CHECK(luminance(pixels[0]) < 0.6f);
   CHECK(luminance(pixels[1]) > 0.01f);
   CHECK(pixels[2].r == 0.5f);
+}
+
+TEST_CASE("the filmic curve goes through its published points, and never falls") {
+  const auto show = [](float value) {
+    return expose_values(std::vector<Rgb>{Rgb(value)}, 0, Tone::kFilmic)[0].g;
+  };
+  // x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14)
+  CHECK(show(0) == 0);
+  CHECK(show(1) == doctest::Approx(2.54 / 3.16).epsilon(1e-6));
+  CHECK(show(0.2f) == doctest::Approx(0.2 * 0.532 / (0.2 * 1.076 + 0.14)).epsilon(1e-6));
+  float before = 0;
+  for (int k = 1; k < 400; ++k) {
+    const float now = show(std::exp2(static_cast<float>(k - 200) / 10));
+    CHECK(now >= before);
+    CHECK(now <= 1);
+    before = now;
+  }
+  CHECK(show(std::numeric_limits<float>::infinity()) == 1);
+  CHECK(show(-3) == 0);
+}
+
+TEST_CASE("what is not a number is magenta, by either curve") {
+  const std::vector<Rgb> values = {Rgb(0.5f, std::numeric_limits<float>::quiet_NaN(), 0.5f), Rgb(0.5f)};
+  for (const Tone tone : {Tone::kClip, Tone::kFilmic}) {
+    const std::vector<Rgb> shown = expose_values(values, 0, tone);
+    CHECK(shown[0] == Rgb(1, 0, 1));
+    CHECK(shown[1].g > 0.4f);
+  }
+}
+
+TEST_CASE("a colour fills what shows nothing of the scene, and its share of a pixel on the border") {
+  FilmTable film;
+  film.pixel_first = {0, 1, 2, 2};
+  film.value = {0, 0};
+  film.weight = {1, 0.25f};
+  std::vector<Rgb> pixels = {Rgb(0.5f), Rgb(0.125f), Rgb(0)};
+  fill_nothing(pixels, film, Rgb(1));
+  CHECK(pixels == std::vector<Rgb>{Rgb(0.5f), Rgb(0.875f), Rgb(1)});
 }

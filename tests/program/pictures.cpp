@@ -1,0 +1,175 @@
+// Whole runs: the pictures that flags ask for, and what is in them.
+#include "child.h"
+#include "tools/json.h"
+
+#include <doctest/doctest.h>
+#include <tinyexr.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+using namespace patchlight;
+using namespace patchlight::testing;
+
+namespace {
+
+// R, G, B of every pixel.
+std::vector<float> read_exr(const std::string& path) {
+  const std::string file = read_bytes(path);
+  float* pixels = nullptr;
+  int width = 0, height = 0;
+  const char* error = nullptr;
+  REQUIRE(LoadEXRFromMemory(&pixels, &width, &height, reinterpret_cast<const unsigned char*>(file.data()),
+                            file.size(), &error) == TINYEXR_SUCCESS);
+  std::vector<float> values;
+  for (int k = 0; k < width * height; ++k) values.insert(values.end(), pixels + 4 * k, pixels + 4 * k + 3);
+  std::free(pixels);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("pictures of direct and of indirect light add up to those of all light") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  for (const char* light : {"all", "direct", "indirect"}) {
+    const ChildResult result = run_child(render_words(
+        folder / "box.yaml", folder / "lit", {"--light", light, "--format", "exr", "--snapshots", "1,16"}));
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+  }
+  for (const char* pass : {"01", "16"}) {
+    const std::string stem = folder / "lit/box-pass-" + pass;
+    const std::vector<float> all = read_exr(stem + ".exr"), direct = read_exr(stem + "-direct.exr"),
+                             indirect = read_exr(stem + "-indirect.exr");
+    double direct_sum = 0, indirect_sum = 0;
+    for (size_t k = 0; k < all.size(); ++k) {
+      // Sums of at most 256 samples, each rounded.
+      CHECK(std::abs(direct[k] + indirect[k] - all[k]) <= 2e-5f * all[k]);
+      CHECK(indirect[k] >= 0);
+      direct_sum += direct[k];
+      indirect_sum += indirect[k];
+    }
+    CHECK(direct_sum > 0);
+    CHECK((indirect_sum > 0) == (std::string(pass) == "16"));
+  }
+}
+
+TEST_CASE("looks are named in the files, and differ") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  std::vector<std::string> pictures;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> looks = {
+      {{}, ""},
+      {{"--tone", "filmic"}, "-filmic"},
+      {{"--false-color", "radiosity"}, "-radiosity"},
+      {{"--false-color", "radiosity", "--light", "direct", "--scale", "linear"}, "-direct-radiosity"},
+      {{"--false-color", "residual"}, "-residual"},
+      {{"--false-color", "level"}, "-level"},
+      {{"--false-color", "reason", "--mesh"}, "-reason-mesh"},
+  };
+  for (const auto& [flags, suffix] : looks) {
+    const ChildResult result = run_child(render_words(folder / "box.yaml", folder / "lit", flags));
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.err.find("bad-radiosity") == std::string::npos);
+    const std::string picture = read_bytes(folder / ("lit/box-pass-16" + suffix + ".png"));
+    CHECK(is_whole_png(picture));
+    for (const std::string& other : pictures) CHECK(picture != other);
+    pictures.push_back(picture);
+  }
+}
+
+TEST_CASE("a storyboard and animations are written beside the pictures") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result =
+      run_child(render_words(folder / "box.yaml", folder / "lit",
+                             {"--storyboard", "--animation", "passes,rounds", "--format", "csv"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") ==
+        "box-passes.gif box-patches.csv box-report.json box-rounds.gif box-storyboard.png");
+  CHECK(is_whole_png(read_bytes(folder / "lit/box-storyboard.png")));
+  const Json json = Json::parse(read_bytes(folder / "lit/box-report.json"));
+  // A graphic control extension a frame.
+  const auto count_frames = [&](const std::string& path) {
+    const std::string bytes = read_bytes(folder / path), mark("\x21\xf9\x04", 3);
+    size_t count = 0;
+    for (size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) ++count;
+    return count;
+  };
+  CHECK(count_frames("lit/box-passes.gif") == json["passes"].size());
+  CHECK(count_frames("lit/box-rounds.gif") == json["rounds"].size());
+}
+
+TEST_CASE("looks of single passes are refused with other solvers, which have storyboards all the same") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  for (const std::vector<std::string>& flags : std::vector<std::vector<std::string>>{
+           {"--light", "direct"}, {"--false-color", "residual"}, {"--animation", "passes"}}) {
+    std::vector<std::string> words = flags;
+    words.insert(words.end(), {"--solver", "shooting"});
+    const ChildResult result = run_child(render_words(folder / "box.yaml", folder / "lit", words));
+    CHECK(result.exit_code == 2);
+    CHECK(result.err.find(flags[0]) != std::string::npos);
+  }
+  for (const char* solver : {"shooting", "matrix"}) {
+    const ChildResult result = run_child(render_words(
+        folder / "box.yaml", folder / solver, {"--solver", solver, "--storyboard", "--format", "exr"}));
+    INFO(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(is_whole_png(read_bytes(folder / (std::string(solver) + "/box-storyboard.png"))));
+    const std::string file = read_bytes(folder / (std::string(solver) + "/box-solution.exr"));
+    CHECK(file.find(std::string("Z") + '\0') != std::string::npos);
+    CHECK(file.find("direct.R") == std::string::npos);
+  }
+}
+
+TEST_CASE("every layer of an EXR and an HDR are written in one run") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result = run_child(
+      render_words(folder / "box.yaml", folder / "lit", {"--format", "exr,hdr,csv", "--snapshots", "2"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") == "box-pass-02.exr box-pass-02.hdr box-patches.csv box-report.json");
+  const std::string file = read_bytes(folder / "lit/box-pass-02.exr");
+  for (const char* name :
+       {"direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B", "id", "Z"})
+    CHECK(file.find(std::string(name) + '\0') != std::string::npos);
+}
+
+TEST_CASE("plots are written where they are asked for") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result =
+      run_child(render_words(folder / "box.yaml", folder / "lit", {"--format", "svg"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") == "box-convergence.svg box-report.json box-rounds.svg");
+  CHECK(read_bytes(folder / "lit/box-convergence.svg").ends_with("</svg>\n"));
+}
+
+TEST_CASE("view shows what a patch sees before and after direct light, and says what it cannot see from") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const auto look = [&](const std::string& from, const std::string& pass) {
+    return run_child({"view", folder / "box.yaml", "-o", folder / "lit", "--from", from, "--pass", pass,
+                      "--size", "64", "--max-patches", "4000"});
+  };
+  CHECK(look("floor@0.5,0.5", "0").exit_code == 0);
+  const ChildResult result = look("floor@0.5,0.5", "1");
+  INFO(result.err);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out == (folder / "lit/box-view-floor-pass-01.png") + "\n");
+  CHECK(list_names(folder / "lit") == "box-view-floor-pass-00.png box-view-floor-pass-01.png");
+  CHECK(read_bytes(folder / "lit/box-view-floor-pass-00.png") !=
+        read_bytes(folder / "lit/box-view-floor-pass-01.png"));
+  const ChildResult unknown = look("flor@0.5,0.5", "1");
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.err.find("did you mean 'floor'?") != std::string::npos);
+  CHECK(look("floor@0.5,0.5", "99").exit_code == 3);
+}
