@@ -59,6 +59,7 @@ await page.waitForSelector('html.ready', {timeout: 20000});
 
 // The scene alone, as a PNG.
 async function picture() {
+  await page.waitForSelector('#view:not(.moving)');
   const hide = on => page.evaluate(hidden => {
     for (const element of document.querySelectorAll('header, #controls, #panel'))
       element.style.visibility = hidden ? 'hidden' : '';
