@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little,
 
 // Numbers, and structs of numbers of one size: GLM's vectors are not trivially copyable by their letter.
 template <class Value>
-constexpr bool kIsPlain = std::is_standard_layout_v<Value> && std::is_trivially_destructible_v<Value>;
+constexpr bool kIsPlain = std::is_standard_layout_v<Value>&& std::is_trivially_destructible_v<Value>;
 
 template <class Value>
 void put_bytes(std::string& bytes, const Value& value) {
