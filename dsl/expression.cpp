@@ -82,6 +82,15 @@ double parse_variable(Parser& parser) {
   parser.fail(first, "undefined-variable", undefined_variable_text(parser.context, name));
 }
 
+[[noreturn]] void fail_unknown_name(Parser& parser, size_t first, std::string_view name) {
+  std::vector<std::string> known = {"pi", "min", "max"};
+  for (const Function& row : kFunctions) known.emplace_back(row.name);
+  const std::string near = did_you_mean(name, known);
+  parser.fail(first, "expression-syntax",
+              fmt::format("'{0}' is no function; {1}a variable is written ${0}", escape_text(name),
+                          near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
+}
+
 double parse_call(Parser& parser) {
   const size_t first = parser.at;
   const std::string_view name = take_name(parser);
@@ -90,9 +99,7 @@ double parse_call(Parser& parser) {
   const Function* function = nullptr;
   for (const Function& row : kFunctions)
     if (row.name == name) function = &row;
-  if (!function && !is_min && !is_max)
-    parser.fail(first, "expression-syntax",
-                fmt::format("'{0}' is no function; a variable is written ${0}", escape_text(name)));
+  if (!function && !is_min && !is_max) fail_unknown_name(parser, first, name);
   if (!parser.take('(')) parser.fail_syntax(fmt::format("'(' after '{}'", name));
   double value = parse_sum(parser);
   while (!function && parser.take(',')) {

@@ -211,6 +211,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
                             : first + k,
                 patch_size, level);
     scene.polygons.id.push_back(outlines.id[p] + (side == 0 ? "" : ".back"));
+    scene.polygons.object.push_back(objects.top[object]);
     scene.polygons.line.push_back(line);
     scene.polygons.first_edge.push_back(first_edge);
     scene.polygons.face_first.push_back(static_cast<uint32_t>(scene.faces.size()));
@@ -268,6 +269,9 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                             kSizeRatioMax));
   warn_of_coincident(messages, tree, objects, outlines);
   set_units(sums, scene);
+  scene.object_ids = objects.top_ids;
+  scene.is_heat = std::all_of(outlines.material.begin(), outlines.material.end(),
+                              [&](uint32_t row) { return materials.is_heat[row] != 0; });
   scene.polygons.face_first.assign(1, 0);
   std::vector<FaceRow> rows;
   for (uint32_t p = 0; p < outlines.size(); ++p) {

@@ -76,6 +76,16 @@ constexpr KeyRow kMaterialRows[] = {
      "Share of light that is reflected, 0..1: a number or [r, g, b]."},
     {"emission", kRgb, false, "0", 0, kEmissionMax, "emission-range", "",
      "Light given off: exitance in W/m2, which is radiance times pi; a number or [r, g, b]."},
+    {"temperature", kNumber, false, "", 0, kTemperatureMax, "out-of-range", "",
+     "Beside emissivity, kelvin: the surface emits emissivity times 5.670374e-8 T^4 W/m2. Absent: nothing."},
+    {"emissivity", kNumber, false, "", 0, 1, "out-of-range", "",
+     "Heat in place of light, 0..1: the surface reflects 1 - emissivity."},
+};
+constexpr KeyRule kMaterialRules[] = {
+    {kExcludes, "temperature|emissivity", "reflectance|emission", "ambiguous-material",
+     "a material has either 'reflectance' and 'emission', or 'temperature' and 'emissivity'"},
+    {kNeeds, "temperature", "emissivity", "missing-key",
+     "'temperature' wants 'emissivity' beside it; 1 is a black body"},
 };
 
 constexpr KeyRow kCameraRows[] = {
@@ -170,7 +180,7 @@ const KeyTable kIncludeKeys = {"include", kIncludeRows};
 const KeyTable kTransformKeys = {"transform", kTransformRows, kTransformRules};
 const KeyTable kRotateKeys = {"rotate", kRotateRows};
 const KeyTable kExpectKeys = {"expect", kExpectRows};
-const KeyTable kMaterialKeys = {"material", kMaterialRows};
+const KeyTable kMaterialKeys = {"material", kMaterialRows, kMaterialRules};
 const KeyTable kCameraKeys = {"camera", kCameraRows};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};

@@ -62,10 +62,11 @@ std::string limit_text(const Limits& limits, uint64_t Limits::*limit);
 // What a message says of a picture that is too large; empty where it is not.
 std::string find_image_fault(const Limits& limits, uint64_t width, uint64_t height);
 
-constexpr double kCoordinateMax = 1e15;  // file units
-constexpr double kSizeRatioMax = 1e7;    // largest to smallest polygon, a warning beyond
-constexpr double kEmissionMax = 1e20;    // W/m2
-constexpr uint32_t kPassesMax = 10'000;  // of a scene file; --passes takes more
+constexpr double kCoordinateMax = 1e15;                  // file units
+constexpr double kSizeRatioMax = 1e7;                    // largest to smallest polygon, a warning beyond
+constexpr double kEmissionMax = 1e20;                    // W/m2
+constexpr double kTemperatureMax = 1e6;                  // K: no surface is hotter
+constexpr uint32_t kPassesMax = 10'000;                  // of a scene file; --passes takes more
 constexpr double kQualityMin = 0.01, kQualityMax = 100;  // times the work
 constexpr size_t kErrorsShown = 20;
 constexpr size_t kWarningsShown = 20;  // of one kind

@@ -5,7 +5,21 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace patchlight {
+namespace {
+
+constexpr double kStefanBoltzmann = 5.670374419e-8;  // W/(m2 K4), CODATA 2018
+
+// Of a grey surface, W/m2.
+double find_exitance(const MapValues& material) {
+  if (!has(material, "temperature")) return 0;
+  const double squared = std::pow(value_of(material, "temperature").number[0], 2);
+  return value_of(material, "emissivity").number[0] * kStefanBoltzmann * squared * squared;
+}
+
+}  // namespace
 
 void read_materials(const Context& context, uint32_t node, MaterialTable& materials) {
   const Tree& tree = context.tree;
@@ -18,10 +32,15 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
                             ". or -; got '{}'",
                             escape_text(name)));
     const MapValues map = read_map(context, value, kMaterialKeys);
-    const DVec3 reflectance = vec3_of(value_of(map, "reflectance"));
+    const bool is_heat = has(map, "emissivity");
+    const DVec3 reflectance =
+        is_heat ? DVec3(1 - value_of(map, "emissivity").number[0]) : vec3_of(value_of(map, "reflectance"));
     if (map.good && std::max({reflectance.r, reflectance.g, reflectance.b}) == 1)
-      add_warning(context.messages, place_of(tree, value_of(map, "reflectance").node), "reflectance-one",
-                  "a reflectance of 1 keeps all light: in a closed room the passes never converge");
+      add_warning(context.messages,
+                  place_of(tree, value_of(map, is_heat ? "emissivity" : "reflectance").node),
+                  "reflectance-one",
+                  is_heat ? "an emissivity of 0 keeps all heat: in a closed room the passes never converge"
+                          : "a reflectance of 1 keeps all light: in a closed room the passes never converge");
     // A material that is wrong still counts as known: its users are not to be reported too.
     const auto [row, is_new] =
         materials.row_of.emplace(context.prefix + name, static_cast<uint32_t>(materials.size()));
@@ -32,7 +51,8 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
                                        place_of(tree, key))));
     materials.name.push_back(context.prefix + name);
     materials.reflectance.push_back(reflectance);
-    materials.emission.push_back(vec3_of(value_of(map, "emission")));
+    materials.emission.push_back(is_heat ? DVec3(find_exitance(map)) : vec3_of(value_of(map, "emission")));
+    materials.is_heat.push_back(is_heat);
     materials.node.push_back(key);
     materials.used.push_back(0);
     key = tree.nodes[value].next;

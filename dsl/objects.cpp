@@ -53,6 +53,7 @@ bool read_own(const Context& context, const MapValues& map, MaterialTable& mater
 
 uint32_t add_object(uint32_t node, const Inherited& own, bool is_mesh, ObjectTable& objects) {
   objects.node.push_back(node);
+  objects.top.push_back(own.top);
   objects.two_sided.push_back(own.two_sided);
   objects.is_mesh.push_back(is_mesh);
   objects.patch_size.push_back(own.patch_size);
@@ -82,6 +83,14 @@ void report_duplicate_id(const Context& context, uint32_t node, std::string_view
                         place_text(context.messages, place_of(context.tree, first), place)));
 }
 
+// The value of an object's key `id`, or kNone.
+uint32_t find_own_id(const Tree& tree, uint32_t object) {
+  if (tree.nodes[object].kind != NodeKind::kMap) return kNone;
+  for (uint32_t key = tree.nodes[object].first; key != kNone; key = tree.nodes[tree.nodes[key].next].next)
+    if (text_of(tree, key) == "id") return tree.nodes[key].next;
+  return kNone;
+}
+
 }  // namespace
 
 void read_object(const Context& context, uint32_t node, const ObjectName& name, const Inherited& inherited,
@@ -109,18 +118,12 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
 
 bool is_id_taken(const Context& context, uint32_t object, const std::string& prefix, IdTable& ids) {
   const Tree& tree = context.tree;
-  if (tree.nodes[object].kind != NodeKind::kMap) return false;
-  for (uint32_t key = tree.nodes[object].first; key != kNone; key = tree.nodes[tree.nodes[key].next].next) {
-    if (text_of(tree, key) != "id") continue;
-    const uint32_t node = tree.nodes[key].next;
-    const std::string_view own = text_of(tree, node);
-    if (own.empty()) return false;
-    const auto [row, is_new] = ids.try_emplace(prefix + std::string(own), node);
-    // An alias of an object stands for the same id at another place.
-    if (!is_new) report_duplicate_id(context, row->second == node ? object : node, row->first, row->second);
-    return !is_new;
-  }
-  return false;
+  const uint32_t node = find_own_id(tree, object);
+  if (node == kNone || text_of(tree, node).empty()) return false;
+  const auto [row, is_new] = ids.try_emplace(prefix + std::string(text_of(tree, node)), node);
+  // An alias of an object stands for the same id at another place.
+  if (!is_new) report_duplicate_id(context, row->second == node ? object : node, row->first, row->second);
+  return !is_new;
 }
 
 void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
@@ -129,8 +132,13 @@ void read_objects(const Context& context, uint32_t list, SceneObjects& scene) {
   for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next) {
     ++number;
     if (is_id_taken(context, child, context.prefix, scene.ids)) continue;
-    read_object(context, child, {context.prefix, fmt::format("{}object{}", context.prefix, number)},
-                Inherited{}, scene);
+    const std::string unnamed = fmt::format("{}object{}", context.prefix, number);
+    const uint32_t id = find_own_id(tree, child);
+    const std::string_view own = id == kNone ? std::string_view{} : text_of(tree, id);
+    Inherited inherited;
+    inherited.top = static_cast<uint32_t>(scene.objects.top_ids.size());
+    scene.objects.top_ids.push_back(own.empty() ? unnamed : context.prefix + std::string(own));
+    read_object(context, child, {context.prefix, unnamed}, inherited, scene);
     if (scene.is_full) return;
   }
 }

@@ -12,6 +12,7 @@ namespace patchlight {
 
 // What an object takes from the group or repeat that it stands in, where it does not say otherwise.
 struct Inherited {
+  uint32_t top = 0;           // row of ObjectTable::top_ids
   uint32_t material = kNone;  // row of MaterialTable
   bool two_sided = false;
   double patch_size = 0;  // file units; 0: as the settings say
@@ -30,7 +31,7 @@ struct SceneObjects {
   OutlineTable outlines;
   uint64_t reads = 0;    // values that repeats read, each time anew
   bool is_full = false;  // there are more than the limits allow: it was told, and no more are added
-  IdTable ids;  // of the lists `objects`
+  IdTable ids;           // of the lists `objects`
 };
 
 // Reads all objects of a list, in the order of the file; ids get the context's prefix. Errors: missing-key,

@@ -12,7 +12,9 @@ namespace patchlight {
 
 // What all polygons of one object share.
 struct ObjectTable {
-  std::vector<uint32_t> node;  // tree node of its id, or of the object where it has none
+  std::vector<std::string> top_ids;  // of the entries of the lists `objects`: a row an entry, not an object
+  std::vector<uint32_t> top;         // the entry that the object is, or stands in: a row of top_ids
+  std::vector<uint32_t> node;        // tree node of its id, or of the object where it has none
   std::vector<uint8_t> two_sided;
   std::vector<uint8_t> is_mesh;     // its polygons are faces of a mesh: bent or thin ones are no mistakes
   std::vector<double> patch_size;   // file units; 0: as the settings say

@@ -16,6 +16,7 @@ namespace patchlight {
 // One row a polygon of the scene, in the order of the file; a two-sided polygon has a second row, `ID.back`.
 struct PolygonTable {
   std::vector<std::string> id;
+  std::vector<uint32_t> object;      // row of Scene::object_ids: what of the list `objects` it is a part of
   std::vector<uint32_t> line;        // 1-based place in the file
   std::vector<Vec3> first_edge;      // unit: along it u runs
   std::vector<uint32_t> face_first;  // polygons + 1: its faces are face_first[p] .. face_first[p + 1]
@@ -67,6 +68,8 @@ struct Scene {
   std::string title;
   FaceTable faces;
   PolygonTable polygons;
+  std::vector<std::string> object_ids;
+  bool is_heat = false;         // all materials in use are given by emissivity: one channel, W/m2 of heat
   std::vector<Camera> cameras;  // never empty: the automatic one where the file names none
   SolverSettings solver;
   OutputSettings output;

@@ -272,7 +272,7 @@ void add_completion_flags(CLI::App& app, Options& options) {
 
 void add_bench_flags(CLI::App& app, Options& options) {
   BenchOptions& bench = options.bench;
-  app.add_option("SCENE", bench.scenes, "scene files; scenes/*.yaml unless given")->type_name("");
+  app.add_option("SCENE", bench.scenes, "scene files; seven rooms of scenes/ unless given")->type_name("");
   add_value(app, "--only", "kernels|scenes|loading|growth|threads,...",
             "sections; the first two unless given", [&](const std::string& text) {
               bench.sections = split_list(text);

@@ -16,6 +16,7 @@ namespace {
 constexpr int kReportVersion = 1;
 constexpr size_t kWorstCount = 5;
 constexpr size_t kStepsMax = 1000;
+constexpr size_t kObjectsMax = 10'000;
 
 Json rgb(const DRgb& value) { return {value.r, value.g, value.b}; }
 
@@ -33,6 +34,20 @@ Json make_form_factors(const std::vector<double>& row_sums, const PolygonTable& 
   }
   return {
       {"row_sum_min", row_sums[order.front()]}, {"row_sum_max", row_sums[order.back()]}, {"worst", worst}};
+}
+
+// What each object gives and takes. Heat has one channel.
+Json make_objects(const ObjectPowerTable& power, const Scene& scene) {
+  const auto number = [&](const DRgb& value) { return scene.is_heat ? Json(value.g) : rgb(value); };
+  Json objects = Json::array();
+  for (size_t object = 0; object < std::min(power.size(), kObjectsMax); ++object)
+    objects.push_back({{"object", scene.object_ids[object]},
+                       {"area", power.area[object]},
+                       {"emitted_power", number(power.emitted[object])},
+                       {"received_power", number(power.received[object])},
+                       {"absorbed_power", number(power.absorbed[object])},
+                       {"net_power", number(find_net_power(power, object))}});
+  return objects;
 }
 
 }  // namespace
@@ -111,6 +126,8 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                      {"escaped", rgb(report.power->escaped * power_scale)},
                      {"unshot", rgb(report.power->unshot * power_scale)},
                      {"closure_error", report.power->closure_error}};
+
+  if (const Json objects = make_objects(report.objects, scene); !objects.empty()) json["objects"] = objects;
 
   const StageSeconds& seconds = report.seconds;
   json["seconds"] = {{"load", seconds.load},   {"trace", seconds.trace},   {"split", seconds.split},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/solvers.h"
+#include "object_power.h"
 #include "plan.h"
 
 #include <optional>
@@ -29,6 +30,7 @@ struct RunReport {
   std::optional<uint64_t> solution_hash;
   std::optional<PowerLedger> power;  // W
   std::vector<double> row_sums;
+  ObjectPowerTable objects;  // W
   StageSeconds seconds;
   uint64_t film_rays = 0;
   uint64_t film_bytes = 0;

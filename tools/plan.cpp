@@ -114,6 +114,22 @@ bool Plan::has_pictures() const {
 
 bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
+bool Plan::is_exposed() const {
+  return storyboard || animate_passes ||
+         std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
+           return exporter->pixels == PixelKind::kDisplay || exporter->exposed;
+         });
+}
+
+bool Plan::records_passes() const {
+  return std::any_of(exporters.begin(), exporters.end(),
+                     [](const Exporter* exporter) { return exporter->export_passes != nullptr; });
+}
+
+bool makes_films(const Plan& plan, const Scene& scene) {
+  return plan.has_pictures() || (plan.is_exposed() && !scene.output.exposure_ev);
+}
+
 std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count) {
   std::vector<uint32_t> passes;
   if (all) {
@@ -215,7 +231,12 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
   uint64_t bytes = forecast_bytes(scene.faces, scene.solver, plan.starting_patches) +
                    plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches);
-  if (!plan.has_pictures()) return bytes;
+  // Files of the whole solution are written one after the other.
+  uint64_t bytes_per_patch = 0;
+  for (const Exporter* exporter : plan.exporters)
+    bytes_per_patch = std::max<uint64_t>(bytes_per_patch, exporter->bytes_per_patch);
+  bytes += bytes_per_patch * scene.solver.patch_count_max;
+  if (!makes_films(plan, scene)) return bytes;
   uint64_t pixels_largest = 0;
   for (const Camera& camera : plan.cameras) {
     const uint64_t pixels = uint64_t{camera.width} * camera.height;
@@ -233,7 +254,7 @@ RunForecast forecast_run(const Scene& scene, const Plan& plan) {
   double bytes = kProgramBytesLikely + solve.bytes, seconds = solve.seconds, pixels_largest = 0;
   bytes += static_cast<double>(plan.solver->forecast_bytes(scene.faces, scene.solver, plan.starting_patches));
   seconds += plan.solver->forecast_seconds(scene.faces, scene.solver, plan.starting_patches);
-  if (plan.has_pictures())
+  if (makes_films(plan, scene))
     for (const Camera& camera : plan.cameras) {
       const double pixels = static_cast<double>(uint64_t{camera.width} * camera.height);
       pixels_largest = std::max(pixels_largest, pixels);

@@ -31,6 +31,8 @@ struct Plan {
   uint64_t starting_patches = 0;
   bool has_pictures() const;
   bool goes_by_passes() const;  // a step is a bounce of light
+  bool is_exposed() const;      // something that it writes shows light as a display does
+  bool records_passes() const;  // something that it writes shows all passes
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -54,6 +56,9 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
 
 // More than one step: passes, shots.
 std::string name_steps(std::string_view step);
+
+// True where the run looks through its cameras: for pictures, or to find an exposure by.
+bool makes_films(const Plan& plan, const Scene& scene);
 
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);

@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 namespace patchlight {
@@ -56,8 +58,12 @@ void write_tables(Run& run) {
   for (const Exporter* exporter : run.plan.exporters) {
     if (exporter->pixels != PixelKind::kNoPixels) continue;
     NewFile file;
-    open_file(file, fmt::format("{}/{}-patches.{}", run.folder, run.plan.stem, exporter->format));
-    exporter->export_solution(file, run.scene, run.solution);
+    open_file(file,
+              fmt::format("{}/{}{}.{}", run.folder, run.plan.stem, exporter->name_end, exporter->format));
+    if (exporter->export_passes != nullptr)
+      exporter->export_passes(file, run.scene, run.solution, run.record);
+    else
+      exporter->export_solution(file, run.scene, run.solution);
     commit_file(file);
     run.tables.push_back(file.path);
   }
@@ -87,6 +93,7 @@ void advance_all(Run& run, const Tracer& tracer) {
   const SolverSettings& settings = run.scene.solver;
   const Solver& solver = *run.plan.solver;
   std::span<const uint32_t> snapshots = run.plan.snapshots;
+  run.record.step = solver.step;
   bool last = false;
   while (!last) {
     const PassReport& step = solver.advance(run.solution, run.scene.faces, tracer, settings);
@@ -96,6 +103,8 @@ void advance_all(Run& run, const Tracer& tracer) {
     say_step(run, step);
     keep_light(run);
     take_pass(run);
+    if (run.plan.records_passes())
+      record_pass(run.record, run.solution, run.scene.faces, *run.scene.output.exposure_ev, last);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
     while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
@@ -108,7 +117,7 @@ void advance_all(Run& run, const Tracer& tracer) {
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
   freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  if (run.plan.has_pictures()) start_pictures(run, tracer);
+  start_pictures(run, tracer);
   try {
     advance_all(run, tracer);
   } catch (const std::domain_error&) {
@@ -122,6 +131,7 @@ void solve(Run& run, const Tracer& tracer) {
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
   run.report.row_sums = find_row_sums(run.solution, run.scene.faces, run.scene.polygons.size());
+  run.report.objects = find_object_power(run.scene, run.solution);
   run.report.solution_hash = find_solution_hash(run.solution);
 }
 
@@ -149,12 +159,30 @@ std::string describe_steps(const Run& run) {
   return fmt::format("{} of {} {} ({})", count, run.plan.step_count_max, name_steps(step), why);
 }
 
+// The largest net heat flows, those of sources and those of sinks.
+void say_heat(Run& run) {
+  constexpr size_t kShown = 8;
+  const ObjectPowerTable& power = run.report.objects;
+  std::vector<size_t> order(power.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto net = [&](size_t object) { return find_net_power(power, object).g; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return std::abs(net(a)) > std::abs(net(b)); });
+  std::string text;
+  for (size_t k = 0; k < std::min(order.size(), kShown); ++k)
+    text += fmt::format("{} {} {:+.5g} W", k == 0 ? "" : ",", escape_text(run.scene.object_ids[order[k]]),
+                        net(order[k]));
+  if (!text.empty())
+    say(run.talk, fmt::format("net heat given off:{}{}", text, order.size() > kShown ? ", ..." : ""));
+}
+
 void say_summary(Run& run) {
   const RunReport& report = run.report;
   say(run.talk,
       fmt::format("{}: {}, {} patches, {} rays{}", run.plan.stem, describe_steps(run),
                   run.solution.elements.size(), format_count(count_rays(report, run.solution)),
                   report.power ? fmt::format(", closure error {:.2g}", report.power->closure_error) : ""));
+  if (run.scene.is_heat) say_heat(run);
   const StageSeconds& s = report.seconds;
   say(run.talk, fmt::format("seconds: load {:.2f}, trace {:.2f}, split {:.2f}, solve {:.2f}, render {:.2f}, "
                             "write {:.2f}, total {:.2f}",

@@ -48,6 +48,7 @@ struct Run {
   Solution solution;
   std::vector<FilmTable> films;      // a row a camera, once made
   std::vector<CentreTable> centres;  // a row a camera, where a format wants them
+  PassRecord record;                 // of passes so far, where a format asks for it
   LightHistory light;
   ColorScale scale;  // of false colours
   Series series;

@@ -179,7 +179,10 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
   MaterialTable materials;
   materials.reflectance = {DRgb(0.25), DRgb(0.5)};
   materials.emission = {DRgb(0), DRgb(7)};
+  materials.is_heat = {0, 0};
   ObjectTable objects;
+  objects.top_ids = {"a", "b"};
+  objects.top = {0, 1};
   objects.node = objects.subdivide_node = {0, 0};
   objects.two_sided = {0, 1};
   objects.is_mesh = {0, 0};
@@ -194,6 +197,7 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
   make_faces(messages, tree, materials, objects, outlines, 1000, scene);
   REQUIRE(messages.errors.empty());
   CHECK(scene.polygons.id == std::vector<std::string>{"square", "triangle", "triangle.back"});
+  CHECK(scene.polygons.object == std::vector<uint32_t>{0, 1, 1});
   REQUIRE(scene.faces.size() == 3);
   CHECK(scene.units_per_length == 8);  // the root of 64 + 8, rounded down to a power of two
   CHECK(scene.faces.reflectance[0] == Rgb(0.25f));

@@ -8,11 +8,13 @@ set(DSL_TEST_SOURCES
   dsl/include.cpp
   dsl/language.cpp
   dsl/limits.cpp
+  dsl/materials.cpp
   dsl/mesh.cpp
   dsl/number.cpp
   dsl/objects.cpp
   dsl/overrides.cpp
   dsl/prescan.cpp
+  dsl/readmes.cpp
   dsl/settings.cpp
   dsl/shape_group.cpp
   dsl/shape_repeat.cpp

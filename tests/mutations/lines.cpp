@@ -1,4 +1,4 @@
-// Every line of every shipped scene, damaged in the ways that slips of an editor damage it.
+// Every line of a scene, damaged in the ways that slips of an editor damage it.
 #include "support.h"
 
 #include <doctest/doctest.h>

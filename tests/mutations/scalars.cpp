@@ -1,4 +1,4 @@
-// Every value, key and name of every shipped scene, one at a time, by what nobody should write there.
+// Every value, key and name of a scene, one at a time, by what nobody should write there.
 #include "support.h"
 
 #include <doctest/doctest.h>

@@ -11,7 +11,8 @@ struct SceneText {
   std::string path, text;
 };
 
-// All shipped scenes, and those that hold every key of the language.
+// Shipped scenes that have every construct among them, and those of tests/schema/right, which hold every key
+// of the language.
 std::vector<SceneText> list_scenes();
 
 // Counts of the ways in which texts ended: 0, 2, 3, 4 or 5.

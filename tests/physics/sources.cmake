@@ -1,5 +1,6 @@
 set(PHYSICS_TEST_SOURCES
   physics/furnaces.cpp
+  physics/heat.cpp
   physics/pairs.cpp
   physics/passes.cpp
   physics/rooms.cpp

@@ -72,6 +72,10 @@ void start_child(Child& child, const std::vector<std::string>& arguments, const 
     const rlimit limit = {*settings.file_bytes_max, *settings.file_bytes_max};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (settings.address_bytes_max) {
+    const rlimit limit = {*settings.address_bytes_max, *settings.address_bytes_max};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   execve(word_pointers[0], word_pointers.data(), variable_pointers.data());
   _exit(127);
 }

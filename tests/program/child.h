@@ -17,6 +17,7 @@ struct ChildSettings {
   std::string output = "";  // a file for its standard output; empty: captured
   bool output_closed = false;
   std::optional<uint64_t> file_bytes_max;                        // as ulimit -f
+  std::optional<uint64_t> address_bytes_max;                     // as ulimit -v
   std::vector<std::pair<std::string, std::string>> environment;  // added to the test's own
 };
 

@@ -146,6 +146,21 @@ TEST_CASE("limits end with 5 and name their number") {
   }
 }
 
+// The address sanitizer takes terabytes of addresses before the program begins.
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("where the system gives no more memory while a scene loads, that is said, with 5") {
+  const Folder folder;
+  std::string text = "patchlight: 1\nmaterials: {w: {emission: 1}}\nobjects:\n";
+  for (int k = 0; k < 200'000; ++k) text += "  - {quad: {size: [1, 1]}, material: w}\n";
+  write_bytes(folder / "many.yaml", text);
+  ChildSettings settings;
+  settings.address_bytes_max = 130'000'000;  // The libraries take 60 MB, the scene 170 MB.
+  const ChildResult result = run_child({"check", folder / "many.yaml"}, settings);
+  CHECK(result.exit_code == 5);
+  CHECK(has(result.err, "error[out-of-memory]: the system gives no more memory"));
+}
+#endif
+
 TEST_CASE("check forecasts memory and time") {
   const Folder folder;
   write_bytes(folder / "box.yaml", kBoxScene);

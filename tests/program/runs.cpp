@@ -81,6 +81,25 @@ TEST_CASE("every format that is asked for is written, and only those") {
   CHECK(json["stopped"]["pass"] == 2);
 }
 
+TEST_CASE("meshes and the page have the exposure of the pictures, and the same bytes with 1 and 3 threads") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  REQUIRE(run_child(render_words(folder / "box.yaml", folder / "png")).exit_code == 0);
+  for (const char* threads : {"1", "3"}) {
+    const ChildResult result = run_child(render_words(
+        folder / "box.yaml", folder / threads, {"--format", "glb,ply,obj,html", "--threads", threads}));
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(list_names(folder / threads) == "box-report.json box.glb box.html box.obj box.ply");
+    const auto exposure = [&](const char* run) {
+      return Json::parse(read_bytes(folder / run + "/box-report.json"))["exposure"].get<double>();
+    };
+    CHECK(exposure(threads) == exposure("png"));
+  }
+  for (const char* name : {"/box.glb", "/box.ply", "/box.obj", "/box.html"})
+    CHECK_MESSAGE((read_bytes(folder / "1" + name) == read_bytes(folder / "3" + name)), name);
+}
+
 TEST_CASE("a run that converges early writes every asked picture from its last pass") {
   const Folder folder;
   write_bytes(folder / "box.yaml", kBoxScene);

@@ -48,6 +48,17 @@ TEST_CASE("verify ends with 0 where every expectation is met, after its own pass
   CHECK(has(result.err, "4 of 4 expectations are met"));
 }
 
+TEST_CASE("the shipped scenes that say what they expect are as they say") {
+  for (const char* name : {"furnace", "form_factors"}) {
+    CAPTURE(name);
+    const ChildResult result =
+        run_child({"verify", std::string(PATCHLIGHT_SOURCE_DIR) + "/scenes/" + name + ".yaml"});
+    INFO(result.out);
+    CHECK(result.exit_code == 0);
+    CHECK(has(result.err, "3 of 3 expectations are met"));
+  }
+}
+
 TEST_CASE("verify ends with 1 at a difference, and says found and wanted") {
   const std::string scene =
       kFurnace +

@@ -54,6 +54,7 @@ TEST_CASE("each foreign library has one door") {
       {"^stb_truetype", {"tools/lettering.cpp"}},
       {"^gif_lib", {"tools/export_gif.cpp"}},
       {"^tinyexr", {"tools/export_exr.cpp"}},
+      {"^zlib", {"tools/export_html.cpp"}},
       {"^CLI/", {"tools/command_line.cpp"}},
       {"^nlohmann/", {"tools/json.h"}},
       {"^benchmark/", {"tools/bench/measure."}},

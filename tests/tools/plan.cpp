@@ -250,3 +250,35 @@ TEST_CASE("powers are written with a unit that fits them") {
   CHECK(format_watts(2.4e6) == "2.4 MW");
   CHECK(format_watts(0.127) == "127 mW");
 }
+
+TEST_CASE("cameras are looked through for pictures, and for meshes and pages where no exposure is given") {
+  Scene scene = make_scene();
+  Options options;
+  const auto films = [&](std::vector<std::string> formats) {
+    options.formats = std::move(formats);
+    return makes_films(make_plan(scene, options), scene);
+  };
+  CHECK(films({"png"}));
+  CHECK(films({"exr", "html"}));
+  CHECK(films({"html"}));
+  CHECK(films({"glb"}));
+  CHECK(!films({"csv"}));
+  options.exposure_ev = 2;
+  CHECK(films({"png"}));
+  CHECK(!films({"html"}));
+  CHECK(!films({"glb", "ply", "obj"}));
+}
+
+TEST_CASE("what a mesh or a page takes in memory is forecast") {
+  Scene scene = make_scene();
+  Options options;
+  const auto bytes = [&](std::vector<std::string> formats) {
+    options.formats = std::move(formats);
+    return forecast_run_bytes(scene, make_plan(scene, options));
+  };
+  options.exposure_ev = 0;
+  const uint64_t patches = scene.solver.patch_count_max;
+  CHECK(bytes({"html"}) == bytes({"csv"}) + find_exporter("html").bytes_per_patch * patches);
+  // They are written one after the other.
+  CHECK(bytes({"html", "glb"}) == bytes({"html"}));
+}

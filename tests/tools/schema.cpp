@@ -41,12 +41,16 @@ TEST_CASE("scenes/patchlight.schema.json is what the program prints") {
                 "write it anew: patchlight schema > scenes/patchlight.schema.json");
 }
 
-TEST_CASE("every scene names the schema in its first line") {
-  const std::vector<std::string> paths = scene_files("scenes");
-  REQUIRE(paths.size() >= 6);
+TEST_CASE("every scene names the schema in its first line, and so do the parts of scenes") {
+  const std::vector<std::string> paths = scene_files("scenes"), parts = scene_files("scenes/parts");
+  REQUIRE(paths.size() >= 19);
   for (const std::string& path : paths)
     CHECK_MESSAGE(
         read_bytes(path).starts_with("# yaml-language-server: $schema=./patchlight.schema.json\n# "), path);
+  REQUIRE(parts.size() >= 4);
+  for (const std::string& path : parts)
+    CHECK_MESSAGE(
+        read_bytes(path).starts_with("# yaml-language-server: $schema=../patchlight.schema.json\n# "), path);
 }
 
 TEST_CASE("every property of the schema says what it is") {
