@@ -3,6 +3,7 @@
 
 #include "parallel.h"
 #include "rows.h"
+#include "seen.h"
 #include "vertices.h"
 
 #include <atomic>
@@ -17,65 +18,6 @@ constexpr uint32_t kSide = 4;  // samples a pixel: 4 x 4
 // step is high. Steps are told in the scene's mean radiosity.
 constexpr uint32_t kSideContrast = 8, kSideHighContrast = 16;
 constexpr float kContrast = 1, kHighContrast = 3;
-constexpr uint32_t kBackSidesMax = 64;  // back sides that one ray may look through
-
-// One sample of the film: the element seen, where, and how far along the ray; kNone: background.
-struct Seen {
-  uint32_t element[kPacketSize];
-  Vec2 uv[kPacketSize];
-  float distance[kPacketSize];
-};
-
-uint32_t find_element_near(const PatchTable& elements, uint32_t face, uint32_t cell, uint32_t guess) {
-  // Neighbouring samples mostly show the same element.
-  if (guess != kNone && elements.face[guess] == face && cell >= elements.cell[guess] &&
-      cell - elements.cell[guess] < cell_span(elements.level[guess]))
-    return guess;
-  return find_leaf(elements, face, cell);
-}
-
-// Sixteen camera rays through the points (x, y) of the picture, in pixels from the top left.
-uint64_t look(Seen& seen, const Vec2 (&at)[kPacketSize], const Lens& lens, const FaceTable& faces,
-              const FaceFrameTable& frames, const PatchTable& elements, const Tracer& tracer) {
-  HitPacket packet;
-  uint32_t active = 0, guess = kNone;
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    active |= uint32_t{lens.covers(at[k])} << k;
-    const Vec3 direction = active >> k & 1u ? lens.find_direction(at[k]) : lens.forward;
-    packet.ray.origin_x[k] = lens.eye.x, packet.ray.origin_y[k] = lens.eye.y;
-    packet.ray.origin_z[k] = lens.eye.z;
-    packet.ray.direction_x[k] = direction.x, packet.ray.direction_y[k] = direction.y;
-    packet.ray.direction_z[k] = direction.z;
-    packet.ray.near_distance[k] = 0, packet.ray.far_distance[k] = std::numeric_limits<float>::infinity();
-    seen.element[k] = kNone;
-  }
-  uint64_t rays = 0;
-  for (uint32_t through = 0; active && through < kBackSidesMax; ++through) {
-    find_hits(tracer, packet, active);
-    rays += static_cast<uint64_t>(std::popcount(active));
-    for (uint32_t k = 0; k < kPacketSize; ++k) {
-      if (!(active >> k & 1u)) continue;
-      const uint32_t face = packet.face[k];
-      RayPacket& r = packet.ray;
-      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-      const bool is_back = face != kNone && dot(direction, faces.normal[face]) >= 0;
-      if (is_back && !lens.hemisphere) {
-        // A back side: go on just behind it.
-        const float reached = r.far_distance[k];
-        r.near_distance[k] = reached + 2 * ray_offset(lens.eye + reached * direction);
-        r.far_distance[k] = std::numeric_limits<float>::infinity();
-        continue;
-      }
-      active &= ~(1u << k);
-      if (face == kNone || is_back) continue;
-      seen.distance[k] = r.far_distance[k];
-      seen.uv[k] = find_face_parameters(frames, face, lens.eye + r.far_distance[k] * direction);
-      seen.element[k] = guess =
-          find_element_near(elements, face, find_cell(frames.triangle[face], seen.uv[k]), guess);
-    }
-  }
-  return rays;
-}
 
 // The sum of one pixel under way: few distinct values, so a short list beats a map.
 struct PixelSum {
@@ -101,7 +43,6 @@ struct Moments {
 
 // Adds the samples' shares to the corners of the element, or to the element.
 void add_moments(PixelSum& sum, const Solution& s, const Moments& m, float share, bool smooth) {
-  if (m.element == kNone) return;
   if (!smooth) return sum.add(m.element, share * m.count);
   const auto& corner = s.element_vertices.leaf_vertex[m.element];
   if (s.frames.triangle[s.elements.face[m.element]]) {
@@ -118,25 +59,29 @@ void add_moments(PixelSum& sum, const Solution& s, const Moments& m, float share
 
 // Adds a tile of samples, each of weight `share`. Neighbouring samples mostly show the same element.
 void add_tile(PixelSum& sum, const Solution& s, const Seen& seen, float share, bool smooth) {
-  Moments m;
-  CellFrame cell{Vec2(0), 1};
-  bool triangle = false;
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const uint32_t element = seen.element[k];
-    if (element != m.element) {
+  float across[kPacketSize], along[kPacketSize];
+  for (uint32_t first = 0; first < kPacketSize;) {
+    const uint32_t element = seen.element[first];
+    uint32_t last = first + 1;
+    while (last < kPacketSize && seen.element[last] == element) ++last;
+    if (element != kNone) {
+      const bool triangle = s.frames.triangle[s.elements.face[element]];
+      const CellFrame cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
+      // Rounding may put a point a hair outside its cell: no negative weights.
+      for (uint32_t k = first; k < last; ++k) {
+        across[k] = std::clamp((seen.u[k] - cell.origin.x) / cell.size, 0.0f, 1.0f);
+        along[k] = std::clamp((seen.v[k] - cell.origin.y) / cell.size, 0.0f, 1.0f);
+      }
+      Moments m{element};
+      for (uint32_t k = first; k < last; ++k) {
+        Vec2 st(across[k], along[k]);
+        if (triangle && st.x + st.y > 1) st /= st.x + st.y;
+        m.count += 1, m.s += st.x, m.t += st.y, m.st += st.x * st.y;
+      }
       add_moments(sum, s, m, share, smooth);
-      m = {element};
-      if (element == kNone) continue;
-      triangle = s.frames.triangle[s.elements.face[element]];
-      cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
     }
-    if (element == kNone) continue;
-    // Rounding may put the point a hair outside its cell: no negative weights.
-    Vec2 st = clamp((seen.uv[k] - cell.origin) / cell.size, Vec2(0), Vec2(1));
-    if (triangle && st.x + st.y > 1) st /= st.x + st.y;
-    m.count += 1, m.s += st.x, m.t += st.y, m.st += st.x * st.y;
+    first = last;
   }
-  add_moments(sum, s, m, share, smooth);
 }
 
 // Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is
@@ -176,13 +121,14 @@ std::vector<float> find_line_cover(const View& view, const Lens& lens, const Sol
   std::vector<uint32_t> shown(columns * rows);
   for_rows(size_t{view.width} * view.height, 256, [&](size_t begin, size_t end) {
     Seen seen;
+    uint32_t guess = kNone;
     Vec2 at[kPacketSize];
     for (size_t pixel = begin; pixel < end; ++pixel) {
       const size_t x = pixel % view.width, y = pixel / view.width;
       for (uint32_t k = 0; k < kPacketSize; ++k)
         at[k] = Vec2(static_cast<float>(x), static_cast<float>(y)) +
                 (Vec2(static_cast<float>(k % kSide), static_cast<float>(k / kSide)) + 0.5f) / float{kSide};
-      look(seen, at, lens, faces, s.frames, s.elements, tracer);
+      find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
       for (uint32_t k = 0; k < kPacketSize; ++k)
         shown[(y * kSide + k / kSide) * columns + x * kSide + k % kSide] = seen.element[k];
     }
@@ -240,6 +186,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
   for_rows(chunks.size(), 1, [&](size_t begin, size_t end) {
     PixelSum sum;
     Seen seen;
+    uint32_t guess = kNone;
     Vec2 at[kPacketSize];
     uint64_t rays = 0;
     for (size_t c = begin; c < end; ++c)
@@ -258,7 +205,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
                                  static_cast<float>(tile / tiles * 4 + k / 4));
               at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
             }
-            rays += look(seen, at, lens, faces, s.frames, s.elements, tracer);
+            rays += find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
             add_tile(sum, s, seen, share, settings.smooth);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
               const float value = seen.element[k] == kNone ? 0 : forecast[seen.element[k]];
@@ -302,6 +249,7 @@ CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer
   centres.depth.assign(pixel_count, std::numeric_limits<float>::infinity());
   for_rows((pixel_count + kPacketSize - 1) / kPacketSize, 16, [&](size_t begin, size_t end) {
     Seen seen;
+    uint32_t guess = kNone;
     Vec2 at[kPacketSize];
     for (size_t packet = begin; packet < end; ++packet) {
       const size_t first = packet * kPacketSize, last = std::min(first + kPacketSize, pixel_count);
@@ -309,7 +257,7 @@ CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer
         const size_t pixel = std::min(first + k, last - 1);
         at[k] = Vec2(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width)) + 0.5f;
       }
-      look(seen, at, lens, faces, s.frames, s.elements, tracer);
+      find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
       for (size_t k = 0; first + k < last; ++k) {
         if (seen.element[k] == kNone) continue;
         centres.element[first + k] = seen.element[k];

@@ -10,7 +10,7 @@
 namespace patchlight {
 namespace {
 
-// sRGB from a table over the square root, in which the function is nearly straight: within 1e-5.
+// encode_srgb() from a table over the square root, in which the function is nearly straight: within 1e-5.
 class SrgbTable {
  public:
   SrgbTable() {

@@ -3,6 +3,7 @@
 
 #include "engine/film.h"
 #include "look.h"
+#include "srgb.h"
 
 #include <span>
 #include <vector>

@@ -102,7 +102,7 @@ std::vector<Rgb> find_radiosity(const Run& run) {
 
 void start_pictures(Run& run, const Tracer& tracer) {
   LapWatch watch;
-  make_films(run, tracer);
+  if (makes_films(run.plan, run.scene)) make_films(run, tracer);
   if (run.plan.is_exposed()) {
     std::vector<Rgb> forecast = vertex_radiosity_forecast(run.solution, run.scene.faces);
     if (!is_smooth(run)) forecast = average_corners(run.solution, run.scene.faces, forecast);

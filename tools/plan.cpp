@@ -112,6 +112,8 @@ bool Plan::has_pictures() const {
                      [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
 }
 
+bool Plan::goes_by_passes() const { return solver->step == "pass"; }
+
 bool Plan::is_exposed() const {
   return storyboard || animate_passes ||
          std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
@@ -127,8 +129,6 @@ bool Plan::records_passes() const {
 bool makes_films(const Plan& plan, const Scene& scene) {
   return plan.has_pictures() || (plan.is_exposed() && !scene.output.exposure_ev);
 }
-
-bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
 std::vector<uint32_t> pick_snapshots(const std::vector<uint32_t>& asked, bool all, uint32_t pass_count) {
   std::vector<uint32_t> passes;

@@ -30,9 +30,9 @@ struct Plan {
   size_t thread_count = 1;  // what it will run on
   uint64_t starting_patches = 0;
   bool has_pictures() const;
+  bool goes_by_passes() const;  // a step is a bounce of light
   bool is_exposed() const;      // something that it writes shows light as a display does
   bool records_passes() const;  // something that it writes shows all passes
-  bool goes_by_passes() const;  // a step is a bounce of light
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -54,11 +54,11 @@ std::string name_camera(const Plan& plan, const Camera& camera);
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
 
-// True where the run looks through its cameras: for pictures, or to find an exposure by.
-bool makes_films(const Plan& plan, const Scene& scene);
-
 // More than one step: passes, shots.
 std::string name_steps(std::string_view step);
+
+// True where the run looks through its cameras: for pictures, or to find an exposure by.
+bool makes_films(const Plan& plan, const Scene& scene);
 
 // Bytes that the run will hold at its peak, an upper estimate.
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan);

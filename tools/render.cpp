@@ -117,8 +117,7 @@ void advance_all(Run& run, const Tracer& tracer) {
 void solve(Run& run, const Tracer& tracer) {
   refine_all(run, tracer);
   freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  if (makes_films(run.plan, run.scene)) start_pictures(run, tracer);
-  if (run.plan.is_exposed()) run.report.exposure_ev = run.scene.output.exposure_ev;
+  start_pictures(run, tracer);
   try {
     advance_all(run, tracer);
   } catch (const std::domain_error&) {

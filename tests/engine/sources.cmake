@@ -20,6 +20,7 @@ set(ENGINE_TEST_SOURCES
   engine/ray_tape.cpp
   engine/refine.cpp
   engine/rows.cpp
+  engine/seen.cpp
   engine/shaft.cpp
   engine/sobol.cpp
   engine/solve.cpp

@@ -220,6 +220,37 @@ TEST_CASE("counts and bytes read the same in every locale") {
   CHECK(format_seconds(1e6) == "11.6 days");
 }
 
+TEST_CASE("what is kept for pictures of several passes counts as memory") {
+  Scene scene = make_scene();
+  Options options;
+  uint64_t before = forecast_run_bytes(scene, make_plan(scene, options));
+  const auto check_more = [&](uint64_t least) {
+    const uint64_t now = forecast_run_bytes(scene, make_plan(scene, options));
+    CHECK(now >= before + least);
+    before = now;
+  };
+  options.animate_passes = true;
+  check_more(uint64_t{scene.solver.pass_count_max} * 960 * 720 * 3);
+  options.animate_rounds = true;
+  check_more(10 * 960 * 720 * 3);
+  options.storyboard = true;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.look.light = Light::kDirect;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.look.false_color = FalseColor::kResidual;
+  check_more(scene.solver.patch_count_max * sizeof(Rgb));
+  options.formats = {"exr"};
+  check_more(960 * 720 * 11 * sizeof(float));
+}
+
+TEST_CASE("powers are written with a unit that fits them") {
+  CHECK(format_watts(0) == "0 W");
+  CHECK(format_watts(217.4) == "217 W");
+  CHECK(format_watts(1234) == "1.23 kW");
+  CHECK(format_watts(2.4e6) == "2.4 MW");
+  CHECK(format_watts(0.127) == "127 mW");
+}
+
 TEST_CASE("cameras are looked through for pictures, and for meshes and pages where no exposure is given") {
   Scene scene = make_scene();
   Options options;
@@ -250,35 +281,4 @@ TEST_CASE("what a mesh or a page takes in memory is forecast") {
   CHECK(bytes({"html"}) == bytes({"csv"}) + find_exporter("html").bytes_per_patch * patches);
   // They are written one after the other.
   CHECK(bytes({"html", "glb"}) == bytes({"html"}));
-}
-
-TEST_CASE("what is kept for pictures of several passes counts as memory") {
-  Scene scene = make_scene();
-  Options options;
-  uint64_t before = forecast_run_bytes(scene, make_plan(scene, options));
-  const auto check_more = [&](uint64_t least) {
-    const uint64_t now = forecast_run_bytes(scene, make_plan(scene, options));
-    CHECK(now >= before + least);
-    before = now;
-  };
-  options.animate_passes = true;
-  check_more(uint64_t{scene.solver.pass_count_max} * 960 * 720 * 3);
-  options.animate_rounds = true;
-  check_more(10 * 960 * 720 * 3);
-  options.storyboard = true;
-  check_more(scene.solver.patch_count_max * sizeof(Rgb));
-  options.look.light = Light::kDirect;
-  check_more(scene.solver.patch_count_max * sizeof(Rgb));
-  options.look.false_color = FalseColor::kResidual;
-  check_more(scene.solver.patch_count_max * sizeof(Rgb));
-  options.formats = {"exr"};
-  check_more(960 * 720 * 11 * sizeof(float));
-}
-
-TEST_CASE("powers are written with a unit that fits them") {
-  CHECK(format_watts(0) == "0 W");
-  CHECK(format_watts(217.4) == "217 W");
-  CHECK(format_watts(1234) == "1.23 kW");
-  CHECK(format_watts(2.4e6) == "2.4 MW");
-  CHECK(format_watts(0.127) == "127 mW");
 }
