@@ -19,7 +19,8 @@ enum RowPurpose : uint32_t {
   kRowAimed,
   kRowAimedProbe,
   kRowEmission,
-  kRowShare
+  kRowShare,
+  kRowLeaks
 };
 
 // Directions of a row: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins

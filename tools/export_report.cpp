@@ -16,24 +16,40 @@ namespace {
 constexpr int kReportVersion = 1;
 constexpr size_t kWorstCount = 5;
 constexpr size_t kStepsMax = 1000;
+constexpr size_t kPolygonsMax = 1000;
 constexpr size_t kObjectsMax = 10'000;
 
 Json rgb(const DRgb& value) { return {value.r, value.g, value.b}; }
 
-// The polygons whose rows sum to least: where light leaves, or leaks.
-Json make_form_factors(const std::vector<double>& row_sums, const PolygonTable& polygons) {
+// Rows by polygon; the worst are those that sum to least: where light leaves, or leaks.
+Json make_form_factors(const Health& health, const PolygonTable& polygons) {
+  const std::vector<double>& sums = health.row_sums;
   std::vector<size_t> order;
-  for (size_t polygon = 0; polygon < row_sums.size(); ++polygon)
-    if (row_sums[polygon] >= 0) order.push_back(polygon);
+  for (size_t polygon = 0; polygon < sums.size(); ++polygon)
+    if (sums[polygon] >= 0) order.push_back(polygon);
   if (order.empty()) return {};
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return row_sums[a] < row_sums[b]; });
-  Json worst = Json::array();
+  const auto describe = [&](size_t polygon) {
+    Json row = {{"polygon", polygons.id[polygon]}, {"row_sum", sums[polygon]}};
+    if (!health.reciprocity_errors.empty()) row["reciprocity_error"] = health.reciprocity_errors[polygon];
+    return row;
+  };
+  Json json = {{"by_polygon", Json::array()}};
+  if (order.size() <= kPolygonsMax)
+    for (const size_t polygon : order) json["by_polygon"].push_back(describe(polygon));
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return sums[a] < sums[b]; });
+  json["row_sum_min"] = sums[order.front()];
+  json["row_sum_max"] = sums[order.back()];
+  if (!health.reciprocity_errors.empty())
+    json["reciprocity_error_max"] =
+        *std::max_element(health.reciprocity_errors.begin(), health.reciprocity_errors.end());
+  json["escaped_share"] = health.leaks.escaped;
+  json["escaped_through_cracks"] = health.leaks.through_cracks;
+  json["worst"] = Json::array();
   for (const size_t polygon : order) {
-    if (worst.size() == kWorstCount || row_sums[polygon] >= 1) break;
-    worst.push_back({{"polygon", polygons.id[polygon]}, {"row_sum", row_sums[polygon]}});
+    if (json["worst"].size() == kWorstCount || sums[polygon] >= 1) break;
+    json["worst"].push_back(describe(polygon));
   }
-  return {
-      {"row_sum_min", row_sums[order.front()]}, {"row_sum_max", row_sums[order.back()]}, {"worst", worst}};
+  return json;
 }
 
 // What each object gives and takes. Heat has one channel.
@@ -51,24 +67,6 @@ Json make_objects(const ObjectPowerTable& power, const Scene& scene) {
 }
 
 }  // namespace
-
-std::vector<double> find_row_sums(const Solution& solution, const FaceTable& faces, size_t polygon_count) {
-  const PatchTable& patches = solution.patches;
-  const HitTable& hits = solution.hits;
-  std::vector<double> area(polygon_count, 0), met(polygon_count, 0);
-  if (solution.receivers.receiver_of.size() == patches.size())
-    for (size_t patch = 0; patch < patches.size(); ++patch) {
-      const size_t row = solution.receivers.receiver_of[patch];
-      const uint32_t cast = hits.valid_count(row), hit = cast - hits.nothing[row];
-      if (cast == 0) continue;
-      const uint32_t polygon = faces.polygon[patches.face[patch]];
-      area[polygon] += patches.area[patch];
-      met[polygon] += patches.area[patch] * static_cast<double>(hit) / static_cast<double>(cast);
-    }
-  for (size_t polygon = 0; polygon < polygon_count; ++polygon)
-    met[polygon] = area[polygon] > 0 ? std::min(met[polygon] / area[polygon], 1.0) : -1;
-  return met;
-}
 
 uint64_t count_rays(const RunReport& report, const Solution& solution) {
   // Not the sums of rounds and passes: a pass names the rays whose results it uses first, cast in a round or
@@ -137,7 +135,7 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                    {"film", report.film_bytes},
                    {"forecast", report.forecast_bytes},
                    {"peak", find_memory_peak()}};
-  const Json form_factors = make_form_factors(report.row_sums, scene.polygons);
+  const Json form_factors = make_form_factors(report.health, scene.polygons);
   if (!form_factors.is_null()) json["form_factors"] = form_factors;
   return format_json(json);
 }

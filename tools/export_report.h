@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/solvers.h"
+#include "health.h"
 #include "object_power.h"
 #include "plan.h"
 
@@ -16,10 +17,6 @@ struct StageSeconds {
   double load = 0, trace = 0, split = 0, solve = 0, render = 0, write = 0, total = 0;
 };
 
-// What rows of form factors sum to, a polygon each: the share of its row rays that hit anything, weighted by
-// the patches' areas. 1 in a closed scene; less where light leaves, or leaks. -1: the polygon has no rays.
-std::vector<double> find_row_sums(const Solution& solution, const FaceTable& faces, size_t polygon_count);
-
 // Filled while the run goes; what is empty was not measured and is left out of the report.
 struct RunReport {
   Solver solver = solvers()[0];
@@ -29,7 +26,7 @@ struct RunReport {
   std::optional<double> exposure_ev;
   std::optional<uint64_t> solution_hash;
   std::optional<PowerLedger> power;  // W
-  std::vector<double> row_sums;
+  Health health;
   ObjectPowerTable objects;  // W
   StageSeconds seconds;
   uint64_t film_rays = 0;

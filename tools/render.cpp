@@ -130,7 +130,7 @@ void solve(Run& run, const Tracer& tracer) {
   write_plots(run);
   write_tables(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
-  run.report.row_sums = find_row_sums(run.solution, run.scene.faces, run.scene.polygons.size());
+  run.report.health = find_health(run.scene, run.solution, tracer);
   run.report.objects = find_object_power(run.scene, run.solution);
   run.report.solution_hash = find_solution_hash(run.solution);
 }
@@ -240,6 +240,7 @@ int render(const Options& options, Talk& talk) {
   write_report(run, report_path, whole);
 
   warn_not_converged(run);
+  say_diagnostics(talk, describe_leaks(run.scene, run.report.health.leaks));
   say_summary(run);
   if (!options.json) {
     std::string paths;

@@ -7,6 +7,7 @@ set(ENGINE_TEST_SOURCES
   engine/forecast.cpp
   engine/gather.cpp
   engine/lambert.cpp
+  engine/leaks.cpp
   engine/ledger.cpp
   engine/pair_rays.cpp
   engine/pair_split.cpp

@@ -48,7 +48,7 @@ TEST_CASE("the report has its fields, and powers are in W") {
   report.exposure_ev = -1.5;
   report.solution_hash = 255;
   report.power = PowerLedger{.emitted = DRgb(1), .absorbed = DRgb(1), .escaped = DRgb(0), .unshot = DRgb(0)};
-  report.row_sums = find_row_sums(example.solution, example.scene.faces, 2);
+  report.health.row_sums = find_row_sums(example.solution, example.scene.faces, 2);
   const Json json = Json::parse(format_report(report, example.scene, example.solution));
   CHECK(json["scene"] == "room.yaml");
   CHECK(json["polygons"] == 2);
