@@ -163,6 +163,9 @@ void add_exposure_flags(CLI::App& app, Options& options) {
     options.exposure_auto = text == "auto";
     if (!options.exposure_auto) options.exposure_ev = parse_number("--exposure", text, -100, 100);
   });
+}
+
+void add_tone_flag(CLI::App& app, Options& options) {
   add_choice(app, "--tone", kToneNames, "filmic: soft highlights; clip unless given",
              [&](size_t choice) { options.look.tone = static_cast<Tone>(choice); });
 }
@@ -195,6 +198,7 @@ void add_render_flags(CLI::App& app, Options& options) {
   add_choice(app, "--light", kLightNames,
              "direct: emission and the light of pass 1; indirect: what later passes added; all unless given",
              [&](size_t choice) { options.look.light = static_cast<Light>(choice); });
+  add_tone_flag(app, options);
   add_choice(app, "--false-color", kFalseColorNames,
              "numbers as colours with a legend: radiosity, what the last pass added, how often a patch was "
              "halved, why it was split",
@@ -237,6 +241,7 @@ void add_view_flags(CLI::App& app, Options& options) {
   });
   add_switch(app, "--label", view.label, "write into the picture what it shows");
   add_exposure_flags(app, options);
+  add_tone_flag(app, options);
   add_out_flag(app, options);
   add_solver_flags(app, options);
   add_talk_flags(app, options);
@@ -363,6 +368,20 @@ void check_solver_flags(const Options& options) {
                            solver == "shooting" ? "; --shots asks for pictures after shots" : ""));
 }
 
+// Nor are flags of looks that do not go together.
+void check_look_flags(const Options& options) {
+  const Look& look = options.look;
+  const bool colored = look.false_color != FalseColor::kOff,
+             of_light = look.false_color == FalseColor::kRadiosity;
+  if (colored && look.tone != Tone::kClip) fail_usage("--tone: false colours have none");
+  if (colored && !of_light && look.light != Light::kAll)
+    fail_usage(fmt::format("--light: false colours of {} know no parts of the light",
+                           kFalseColorNames[static_cast<size_t>(look.false_color)]));
+  const bool scaled = of_light || look.false_color == FalseColor::kResidual || options.storyboard;
+  if (look.scale != ScaleKind::kAuto && !scaled)
+    fail_usage("--scale: only radiosity and residual in false colours, and storyboards, have one");
+}
+
 // They are read more than once.
 void check_bench_scenes(const std::vector<std::string>& scenes) {
   for (const std::string& scene : scenes)
@@ -452,6 +471,7 @@ Options parse_command_line(const std::vector<std::string>& arguments) {
   if (!verb.remaining().empty()) fail_extra(verb.remaining(), verb);
   options.verb = row.verb;
   check_solver_flags(options);
+  check_look_flags(options);
   if (row.verb == Verb::kBench) check_bench_scenes(options.bench.scenes);
   const CLI::Option* scene = verb.get_option_no_throw("SCENE");
   if (scene != nullptr && scene->get_required() && options.scene.empty()) fail_usage("expected a scene file");

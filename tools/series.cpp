@@ -50,7 +50,9 @@ template <class Encode>
 void send_file(Run& run, size_t camera, std::string_view ending, Encode encode) {
   const std::string path =
       fmt::format("{}/{}-{}", run.folder, name_camera(run.plan, run.plan.cameras[camera]), ending);
-  push_job(run.jobs, [path, encode = std::move(encode)] { write_file(path, encode()); });
+  // Jobs are copied: what they hold need not be.
+  const auto job = std::make_shared<Encode>(std::move(encode));
+  push_job(run.jobs, [path, job] { write_file(path, (*job)()); });
   run.pictures.push_back(path);
 }
 

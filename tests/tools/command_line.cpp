@@ -240,10 +240,9 @@ TEST_CASE("numbers are read whole") {
 }
 
 TEST_CASE("flags of looks and of pictures of the whole run") {
-  const Options options =
-      parse_command_line({"render", "a.yaml", "--tone", "filmic", "--false-color", "residual", "--scale",
-                          "log", "--storyboard", "--animation", "rounds,passes"});
-  CHECK((options.look.tone == Tone::kFilmic));
+  const Options options = parse_command_line({"render", "a.yaml", "--false-color", "residual", "--scale",
+                                              "log", "--storyboard", "--animation", "rounds,passes"});
+  CHECK((parse_command_line({"render", "a.yaml", "--tone", "filmic"}).look.tone == Tone::kFilmic));
   CHECK((options.look.false_color == FalseColor::kResidual));
   CHECK((options.look.scale == ScaleKind::kLog));
   CHECK(options.storyboard);
@@ -252,6 +251,21 @@ TEST_CASE("flags of looks and of pictures of the whole run") {
   CHECK(!parse_command_line({"render", "a.yaml", "--animation", "rounds"}).animate_passes);
   CHECK(has(find_mistake({"render", "a.yaml", "--animation", "pases"}), "did you mean 'passes'?"));
   CHECK(has(find_mistake({"render", "a.yaml", "--false-color", "levels"}), "did you mean 'level'?"));
+}
+
+TEST_CASE("looks that do not go together are told") {
+  const std::vector<std::string> render = {"render", "a.yaml"};
+  const auto mistake = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), render.begin(), render.end());
+    return find_mistake(words);
+  };
+  CHECK(has(mistake({"--tone", "filmic", "--false-color", "radiosity"}), "--tone"));
+  CHECK(has(mistake({"--light", "direct", "--false-color", "level"}), "--light"));
+  CHECK(has(mistake({"--scale", "log"}), "--scale"));
+  CHECK(has(mistake({"--scale", "log", "--false-color", "reason"}), "--scale"));
+  CHECK(mistake({"--scale", "log", "--storyboard"}).empty());
+  CHECK(mistake({"--light", "direct", "--false-color", "radiosity"}).empty());
+  CHECK(has(find_mistake({"show", "a.yaml", "--effective", "--tone", "filmic"}), "--tone"));
 }
 
 TEST_CASE("view: from where, and after which pass") {

@@ -62,7 +62,7 @@ struct Scratch {
 };
 
 struct Tapes {
-  RayTape direct, rows, aimed;
+  RayTape direct, rows, aimed, film;
 };
 
 uint64_t direct_light(Scratch& scratch, const Bench& b) {
@@ -124,6 +124,8 @@ Tapes record_tapes(Scratch& scratch, const Bench& b) {
   rows_of_patches(scratch, b);
   record_rays(b.tracer, &tapes.aimed);
   second_pass(scratch, b);
+  record_rays(b.tracer, &tapes.film);
+  make_film(b.passed, b.scene.faces, b.tracer, b.view, {});
   record_rays(b.tracer, nullptr);
   return tapes;
 }
@@ -172,6 +174,9 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
   if (tapes.aimed.visibility.ray_count > 0)
     add_ray_kernels(kernels, "gather_elements", b, tapes.aimed.visibility, true, RayOrder::kIncoherent,
                     [&] { return static_cast<double>(second_pass(scratch, b)); }, {});
+  add_ray_kernels(
+      kernels, "make_film", b, tapes.film.nearest, false, RayOrder::kCoherent,
+      [&] { return static_cast<double>(make_film(b.passed, faces, b.tracer, b.view, {}).ray_count); }, {});
 
   const auto factors = static_cast<double>(b.passed.hits.patch.size());
   kernels.push_back({"gather_patches", "factors/s", threads, Clock::kWall, [&, factors] {
@@ -218,10 +223,6 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                        return static_cast<double>(b.refined.elements.size());
                      }});
   const double pixels = static_cast<double>(b.film.width) * b.film.height;
-  kernels.push_back({"make_film", "pixels/s", 1, Clock::kProcessor, [&, pixels] {
-                       make_film(b.passed, faces, b.tracer, b.view, {});
-                       return pixels;
-                     }});
   kernels.push_back({"expose", "pixels/s", 1, Clock::kProcessor, [&, pixels] {
                        expose(b.film, b.vertex_values);
                        return pixels;
