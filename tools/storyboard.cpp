@@ -26,10 +26,17 @@ struct Page {
   uint32_t top(uint32_t row) const { return kMargin + title_height() + row * row_height(); }
 };
 
+// As few rows as kColumns allow, all about equally long: five panels stand as three and two.
+uint32_t count_columns(size_t panel_count) {
+  const auto count = static_cast<uint32_t>(std::max<size_t>(panel_count, 1));
+  const uint32_t rows = (count + kColumns - 1) / kColumns;
+  return (count + rows - 1) / rows;
+}
+
 Page make_page(const Storyboard& storyboard) {
   const Picture& first = storyboard.panels.front().lit;
   const auto count = static_cast<uint32_t>(storyboard.panels.size());
-  const uint32_t columns = std::min(count, kColumns);
+  const uint32_t columns = count_columns(count);
   const auto letters =
       static_cast<uint32_t>(std::clamp(static_cast<float>(first.width) / 22, kLettersMin, kLettersMax));
   return {columns, (count + columns - 1) / columns, first.width, first.height, letters};
@@ -52,7 +59,7 @@ uint32_t place_panel(Picture& page, uint32_t x, uint32_t y, const Page& sizes, c
 }  // namespace
 
 uint32_t find_panel_width(size_t panel_count, uint32_t picture_width) {
-  const auto columns = static_cast<uint32_t>(std::clamp<size_t>(panel_count, 1, kColumns));
+  const uint32_t columns = count_columns(panel_count);
   return std::min(picture_width, (kPageWidth - 2 * kMargin - (columns - 1) * kGap) / columns);
 }
 
