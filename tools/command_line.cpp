@@ -130,7 +130,7 @@ void add_method_flags(CLI::App& app, Options& options) {
       "the way to solve: bounce by bounce, progressive refinement, or the whole linear system at once; "
       "passes unless given",
       [&](size_t choice) { options.solver = solvers()[choice].name; });
-  add_value(app, "--shots", "LIST", "shooting: pictures after these shots, such as 1,10,100, and then stop",
+  add_value(app, "--shots", "LIST", "shooting: pictures after these shots, such as 1-40,100, and then stop",
             [&](const std::string& text) { options.shots = parse_steps("--shots", text); });
   add_switch(app, "--ambient", options.ambient,
              "shooting: pictures show an estimate of the light that is unshot, too");
@@ -138,10 +138,11 @@ void add_method_flags(CLI::App& app, Options& options) {
 
 // Flags that change which pictures there are.
 void add_picture_flags(CLI::App& app, Options& options) {
-  add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16 or all", [&](const std::string& text) {
-    options.snapshots_all = text == "all";
-    if (!options.snapshots_all) options.snapshots = parse_steps("--snapshots", text);
-  });
+  add_value(app, "--snapshots", "LIST", "passes to picture: 1,2,16, or 1-4,16, or all",
+            [&](const std::string& text) {
+              options.snapshots_all = text == "all";
+              if (!options.snapshots_all) options.snapshots = parse_steps("--snapshots", text);
+            });
   add_value(app, "--camera", "NAME", "only this camera of the scene", [&](const std::string& text) {
     if (text.empty()) fail_usage("--camera: expected the name of a camera");
     options.camera = text;
@@ -205,13 +206,13 @@ void add_render_flags(CLI::App& app, Options& options) {
              [&](size_t choice) { options.look.false_color = static_cast<FalseColor>(choice); });
   add_switch(app, "--storyboard", options.storyboard,
              "the snapshots side by side, with labels, and below what was added from one to the next");
-  add_value(app, "--animation", "passes|rounds,...", "GIFs of all passes, of the rounds of refinement",
-            [&](const std::string& text) {
-              for (const std::string& series : split_list(text))
-                (parse_choice("--animation", series, {"passes", "rounds"}) == 0 ? options.animate_passes
-                                                                                : options.animate_rounds) =
-                    true;
-            });
+  add_value(
+      app, "--animation", "passes|rounds|shots,...",
+      "GIFs of all passes, of the rounds of refinement, of the pictured shots", [&](const std::string& text) {
+        bool* const asked[] = {&options.animate_passes, &options.animate_rounds, &options.animate_shots};
+        for (const std::string& series : split_list(text))
+          *asked[parse_choice("--animation", series, {"passes", "rounds", "shots"})] = true;
+      });
   add_choice(app, "--scale", kScaleNames, "of false colours in W/m2; auto unless given",
              [&](size_t choice) { options.look.scale = static_cast<ScaleKind>(choice); });
   add_value(app, "--format", fmt::format("{},...", fmt::join(exporter_formats(), "|")),

@@ -5,6 +5,7 @@
 #include "exporters.h"
 #include "exposure.h"
 #include "lit_mesh.h"
+#include "srgb.h"
 #include "version.h"
 
 #include <fmt/format.h>

@@ -32,7 +32,8 @@ struct Exporter {
   std::string_view name_end = "";  // what its file's name has after S, before the dot; kNoPixels only
   bool exposed = false;            // kNoPixels: it shows light as the pictures do, by the run's exposure
   uint32_t bytes_per_patch = 0;    // kNoPixels: what writing it holds at most
-  // One of these three: a picture -> the file's bytes; a solution, or the passes to it, into a file.
+  // One of these three, but for plots: a picture -> the file's bytes; a solution, or the passes to it, into a
+  // file.
   std::string (*encode_picture)(const Picture&) = nullptr;
   void (*export_solution)(NewFile&, const Scene&, const Solution&) = nullptr;
   void (*export_passes)(NewFile&, const Scene&, const Solution&, const PassRecord&) = nullptr;

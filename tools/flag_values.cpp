@@ -71,12 +71,17 @@ double parse_number(std::string_view flag, std::string_view text, double low, do
 }
 
 std::vector<uint32_t> parse_steps(std::string_view flag, std::string_view text) {
-  std::vector<uint32_t> passes;
-  for (const std::string& part : split_list(text))
-    passes.push_back(static_cast<uint32_t>(parse_count(flag, part, 1, kPassesFlagMax)));
-  std::sort(passes.begin(), passes.end());
-  passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
-  return passes;
+  std::vector<uint32_t> steps;
+  for (const std::string& part : split_list(text)) {
+    const size_t dash = part.find('-', 1);
+    const uint64_t first = parse_count(flag, part.substr(0, dash), 1, kPassesFlagMax);
+    const uint64_t last =
+        dash == std::string::npos ? first : parse_count(flag, part.substr(dash + 1), first, kPassesFlagMax);
+    for (uint64_t step = first; step <= last; ++step) steps.push_back(static_cast<uint32_t>(step));
+  }
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
 }
 
 std::array<uint32_t, 2> parse_size(std::string_view text) {

@@ -27,7 +27,7 @@ uint64_t parse_count(std::string_view flag, std::string_view text, uint64_t low,
 uint64_t parse_bytes(std::string_view flag, std::string_view text);
 // One finite decimal number within [low, high].
 double parse_number(std::string_view flag, std::string_view text, double low, double high);
-// "1,2,16": ascending, repeats dropped.
+// "1,2,16" or "1-40,100": ascending, repeats dropped.
 std::vector<uint32_t> parse_steps(std::string_view flag, std::string_view text);
 // "960x720". Limits are checked with those of the scene's cameras.
 std::array<uint32_t, 2> parse_size(std::string_view text);

@@ -65,7 +65,7 @@ struct Options {
   std::optional<Shading> shading;
   bool mesh = false;
   Look look;
-  bool storyboard = false, animate_passes = false, animate_rounds = false;
+  bool storyboard = false, animate_passes = false, animate_rounds = false, animate_shots = false;
   bool exposure_auto = false;  // asked for by name: stronger than an EV in the scene
   std::optional<double> exposure_ev;
   std::optional<uint32_t> rays;

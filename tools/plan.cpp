@@ -43,14 +43,17 @@ uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
   const uint64_t kept = (parts ? 1u : 0u) + (plan.storyboard ? 1u : 0u) +
                         (plan.look.false_color == FalseColor::kResidual ? 2u : 0u);
   uint64_t bytes = kept * kLightBytesPerPatch * scene.solver.patch_count_max;
-  const uint64_t frames =
-      (plan.animate_passes ? scene.solver.pass_count_max : 0) + (plan.animate_rounds ? kRoundsMost : 0);
+  const uint64_t frames = (plan.animate_passes ? scene.solver.pass_count_max : 0) +
+                          (plan.animate_rounds ? kRoundsMost : 0) +
+                          (plan.animate_shots ? plan.snapshots.size() : 0);
   for (const Camera& camera : plan.cameras) bytes += frames * count_frame_bytes(camera.width, camera.height);
   return bytes;
 }
 
 // Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
 void check_look(const Plan& plan) {
+  if (plan.animate_shots && (plan.solver->step != "shot" || plan.snapshots.front() == kSolutionStep))
+    throw UserError("usage", "--animation shots: expected --solver shooting and --shots, such as 1-40");
   if (plan.goes_by_passes()) return;
   std::string flag;
   if (plan.look.light != Light::kAll) flag = "--light";
@@ -107,7 +110,7 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
 }  // namespace
 
 bool Plan::has_pictures() const {
-  return storyboard || animate_passes ||
+  return storyboard || animate_passes || animate_shots ||
          std::any_of(exporters.begin(), exporters.end(),
                      [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
 }
@@ -115,7 +118,7 @@ bool Plan::has_pictures() const {
 bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
 bool Plan::is_exposed() const {
-  return storyboard || animate_passes ||
+  return storyboard || animate_passes || animate_shots ||
          std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
            return exporter->pixels == PixelKind::kDisplay || exporter->exposed;
          });
@@ -185,6 +188,7 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.storyboard = options.storyboard;
   plan.animate_passes = options.animate_passes;
   plan.animate_rounds = options.animate_rounds;
+  plan.animate_shots = options.animate_shots;
   check_look(plan);
   for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
   plan.limits = options.load.limits;

@@ -22,7 +22,7 @@ struct Plan {
   bool cameras_named = false;       // the scene has several: names of files hold the camera's
   bool mesh = false;
   Look look;
-  bool storyboard = false, animate_passes = false, animate_rounds = false;
+  bool storyboard = false, animate_passes = false, animate_rounds = false, animate_shots = false;
   std::vector<const Exporter*> exporters;
   Limits limits;
   uint64_t bytes_max = 0;   // what the run may hold at its peak

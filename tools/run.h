@@ -7,6 +7,7 @@
 #include "false_color.h"
 #include "files.h"
 #include "light_parts.h"
+#include "pass_record.h"
 #include "storyboard.h"
 #include "talk.h"
 
@@ -33,7 +34,7 @@ class LapWatch {
 // What is gathered for pictures of the whole run; a row a camera.
 struct Series {
   std::vector<Storyboard> storyboards;
-  std::vector<Animation> passes, rounds;
+  std::vector<Animation> passes, rounds, shots;
   ColorScale added_scale;  // of the storyboards
   std::vector<Rgb> told;   // radiosity as the last panel tells it, W/m2; emission before the first
   uint32_t told_pass = 0;

@@ -13,7 +13,7 @@
 namespace patchlight {
 namespace {
 
-constexpr double kFrameSeconds = 1, kLastFrameSeconds = 3;
+constexpr double kFrameSeconds = 1, kShotSeconds = 0.3, kLastFrameSeconds = 3;
 constexpr const char* kDot = " \xc2\xb7 ";
 
 // What all passes after `pass` added, W, as the eye weighs the channels.
@@ -56,6 +56,16 @@ void send_file(Run& run, size_t camera, std::string_view ending, Encode encode) 
   run.pictures.push_back(path);
 }
 
+// A frame a camera: the light after the last step.
+void add_step_frames(const Run& run, std::vector<Animation>& animations, double seconds,
+                     std::span<const Rgb> shown) {
+  const std::string label = fmt::format("{}{}+{}", label_step(run), kDot,
+                                        format_watts(find_watts(run, run.solution.passes.size() - 1)));
+  animations.resize(run.films.size());
+  for (size_t k = 0; k < run.films.size(); ++k)
+    add_frame(animations[k], take_picture(run, run.films[k], shown, PixelKind::kDisplay), label, seconds);
+}
+
 }  // namespace
 
 void take_round(Run& run, const Tracer& tracer) {
@@ -90,21 +100,17 @@ void take_round(Run& run, const Tracer& tracer) {
 void take_pass(Run& run) {
   if (!run.plan.animate_passes) return;
   LapWatch watch;
-  const std::vector<Rgb> shown =
-      show_values(run, pick_light(run.light, find_radiosity(run), run.plan.look.light));
-  const std::string label = fmt::format("{}{}+{}", label_step(run), kDot,
-                                        format_watts(find_watts(run, run.solution.passes.size() - 1)));
-  run.series.passes.resize(run.films.size());
-  for (size_t k = 0; k < run.films.size(); ++k)
-    add_frame(run.series.passes[k], take_picture(run, run.films[k], shown, PixelKind::kDisplay), label,
-              kFrameSeconds);
+  add_step_frames(run, run.series.passes, kFrameSeconds,
+                  show_values(run, pick_light(run.light, find_radiosity(run), run.plan.look.light)));
   run.report.seconds.render += watch.lap();
 }
 
 void take_snapshot(Run& run, const std::vector<Rgb>& radiosity) {
-  if (!run.plan.storyboard) return;
+  if (!run.plan.storyboard && !run.plan.animate_shots) return;
   Series& series = run.series;
   const std::vector<Rgb> shown = show_values(run, pick_light(run.light, radiosity, run.plan.look.light));
+  if (run.plan.animate_shots) add_step_frames(run, series.shots, kShotSeconds, shown);
+  if (!run.plan.storyboard) return;
   const std::vector<Rgb> added =
       color_values(series.added_scale, find_added({.first = {}, .before = series.told, .now = radiosity}));
   series.storyboards.resize(run.films.size());
@@ -139,7 +145,9 @@ void write_series(Run& run) {
     send_file(run, k, "storyboard.png",
               [picture = compose_storyboard(storyboard)] { return encode_png(picture); });
   }
-  for (auto& [animations, ending] : {std::pair{&series.passes, "passes.gif"}, {&series.rounds, "rounds.gif"}})
+  for (auto& [animations, ending] : {std::pair{&series.passes, "passes.gif"},
+                                     {&series.rounds, "rounds.gif"},
+                                     {&series.shots, "shots.gif"}})
     for (size_t k = 0; k < animations->size(); ++k) {
       (*animations)[k].seconds.back() = kLastFrameSeconds;
       send_file(run, k, ending, [animation = std::move((*animations)[k])] { return encode_gif(animation); });

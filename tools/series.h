@@ -11,7 +11,8 @@ void take_round(Run& run, const Tracer& tracer);
 // After every pass: its picture, for S-passes.gif.
 void take_pass(Run& run);
 
-// After the passes that are to be pictured: radiosity at the values of the films, for S-storyboard.png.
+// After the passes or shots that are to be pictured: radiosity at the values of the films, for
+// S-storyboard.png and S-shots.gif.
 void take_snapshot(Run& run, const std::vector<Rgb>& radiosity);
 
 // Sends what was taken to its files.

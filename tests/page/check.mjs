@@ -59,6 +59,7 @@ await page.waitForSelector('html.ready', {timeout: 20000});
 
 // The scene alone, as a PNG.
 async function picture() {
+  await page.waitForSelector('#view:not(.moving)');
   const hide = on => page.evaluate(hidden => {
     for (const element of document.querySelectorAll('header, #controls, #panel'))
       element.style.visibility = hidden ? 'hidden' : '';
@@ -152,10 +153,15 @@ const turned = await picture();
 check(await compare(turned, last) > 5, 'dragging looks about when walking');
 await page.click('#outlines + span');
 await page.click('#outlines + span');
-await page.keyboard.down('w');
-await page.waitForTimeout(300);
-await page.keyboard.up('w');
-check(await compare(await picture(), turned) > 2, 'W walks, with the focus on a control, too');
+// On a busy machine the first frames may take longer than a short press.
+let walked = 0;
+for (let press = 1; press <= 5 && walked <= 2; ++press) {
+  await page.keyboard.down('w');
+  await page.waitForTimeout(300 * press);
+  await page.keyboard.up('w');
+  walked = await compare(await picture(), turned);
+}
+check(walked > 2, 'W walks, with the focus on a control, too');
 await page.selectOption('#camera', '1');
 const besideCorner = await compare(await picture(), readFileSync(file('room-corner-pass-16.png')));
 check(besideCorner < 1, `the second camera looks like the program's; mean difference ${besideCorner} levels`);

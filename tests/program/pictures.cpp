@@ -29,6 +29,14 @@ std::vector<float> read_exr(const std::string& path) {
   return values;
 }
 
+// A GIF has a graphic control extension a frame.
+size_t count_frames(const std::string& path) {
+  const std::string bytes = read_bytes(path), mark("\x21\xf9\x04", 3);
+  size_t count = 0;
+  for (size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) ++count;
+  return count;
+}
+
 }  // namespace
 
 TEST_CASE("pictures of direct and of indirect light add up to those of all light") {
@@ -94,15 +102,27 @@ TEST_CASE("a storyboard and animations are written beside the pictures") {
         "box-passes.gif box-patches.csv box-report.json box-rounds.gif box-storyboard.png");
   CHECK(is_whole_png(read_bytes(folder / "lit/box-storyboard.png")));
   const Json json = Json::parse(read_bytes(folder / "lit/box-report.json"));
-  // A graphic control extension a frame.
-  const auto count_frames = [&](const std::string& path) {
-    const std::string bytes = read_bytes(folder / path), mark("\x21\xf9\x04", 3);
-    size_t count = 0;
-    for (size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) ++count;
-    return count;
-  };
-  CHECK(count_frames("lit/box-passes.gif") == json["passes"].size());
-  CHECK(count_frames("lit/box-rounds.gif") == json["rounds"].size());
+  CHECK(count_frames(folder / "lit/box-passes.gif") == json["passes"].size());
+  CHECK(count_frames(folder / "lit/box-rounds.gif") == json["rounds"].size());
+}
+
+TEST_CASE("shots are animated one by one") {
+  const Folder folder;
+  write_bytes(folder / "box.yaml", kBoxScene);
+  const ChildResult result = run_child(
+      render_words(folder / "box.yaml", folder / "lit",
+                   {"--solver", "shooting", "--shots", "1-4,8", "--animation", "shots", "--format", "csv"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(list_names(folder / "lit") == "box-patches.csv box-report.json box-shots.gif");
+  CHECK(count_frames(folder / "lit/box-shots.gif") == 5);
+  for (const std::vector<std::string>& flags : {std::vector<std::string>{"--animation", "shots"},
+                                                {"--animation", "shots", "--solver", "shooting"},
+                                                {"--solver", "shooting", "--shots", "4-1"}}) {
+    const ChildResult wrong = run_child(render_words(folder / "box.yaml", folder / "lit", flags));
+    CHECK(wrong.exit_code == 2);
+    CHECK_MESSAGE(wrong.err.find("error[usage]: --") != std::string::npos, wrong.err);
+  }
 }
 
 TEST_CASE("looks of single passes are refused with other solvers, which have storyboards all the same") {

@@ -173,7 +173,7 @@ TEST_CASE("texts of a scene cannot end the element that they stand in") {
 
 TEST_CASE("the page in the program is tools/page/page.html, with one place for data") {
   const std::string page(page_html());
-  CHECK(page == read_bytes(PATCHLIGHT_SOURCE_DIR "/tools/page/page.html"));
+  CHECK((page == read_bytes(PATCHLIGHT_SOURCE_DIR "/tools/page/page.html")));
   const std::string mark = "<!-- data -->";
   CHECK(page.find(mark) != std::string::npos);
   CHECK(page.find(mark) == page.rfind(mark));

@@ -4,6 +4,7 @@
 #include "tools/exporters.h"
 #include "tools/exposure.h"
 #include "tools/lit_mesh.h"
+#include "tools/srgb.h"
 
 #include <doctest/doctest.h>
 

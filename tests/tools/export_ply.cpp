@@ -4,9 +4,11 @@
 #include "tools/exporters.h"
 #include "tools/exposure.h"
 #include "tools/lit_mesh.h"
+#include "tools/srgb.h"
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstring>
 
 using namespace patchlight;
@@ -32,40 +34,37 @@ TEST_CASE(
   CHECK(header.find("element vertex " + std::to_string(mesh.vertex_count()) + "\n") != std::string::npos);
   CHECK(header.find("element face " + std::to_string(triangles.size()) + "\n") != std::string::npos);
 
-#pragma pack(push, 1)
-  struct Vertex {
-    float position[3], normal[3];
-    uint8_t color[3];
-    float radiosity[3];
+  // Nine floats and three bytes a vertex; a byte and four words a face.
+  REQUIRE(bytes.size() == start + mesh.vertex_count() * 39 + triangles.size() * 17);
+  size_t at = start;
+  const auto read = [&](auto& value) {
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    at += sizeof value;
   };
-  struct Face {
-    uint8_t count;
-    uint32_t corner[3], patch;
-  };
-#pragma pack(pop)
-  REQUIRE(bytes.size() == start + mesh.vertex_count() * sizeof(Vertex) + triangles.size() * sizeof(Face));
-  const char* at = bytes.data() + start;
   const std::vector<Vec3> normals = find_polygon_normals(lit.scene);
-  for (uint32_t v = 0, polygon = 0; v < mesh.vertex_count(); ++v, at += sizeof(Vertex)) {
+  for (uint32_t v = 0, polygon = 0; v < mesh.vertex_count(); ++v) {
     while (v >= mesh.vertex_first[polygon + 1]) ++polygon;
-    Vertex vertex;
-    std::memcpy(&vertex, at, sizeof vertex);
-    for (int k = 0; k < 3; ++k) {
+    std::array<float, 3> point, normal, radiosity;
+    std::array<uint8_t, 3> color;
+    read(point), read(normal), read(color), read(radiosity);
+    for (size_t k = 0; k < 3; ++k) {
+      const int axis = static_cast<int>(k);
       // 250 cm a length, from (1000, 0, -50).
-      const double place = lit.scene.origin[k] + 250.0 * static_cast<double>(mesh.position[v][k]);
-      CHECK(vertex.position[k] == static_cast<float>(place));
-      CHECK(vertex.normal[k] == normals[polygon][k]);
-      CHECK(vertex.radiosity[k] == mesh.radiosity[v][k]);
+      const double place = lit.scene.origin[axis] + 250.0 * static_cast<double>(mesh.position[v][axis]);
+      CHECK(point[k] == static_cast<float>(place));
+      CHECK(normal[k] == normals[polygon][axis]);
+      CHECK(radiosity[k] == mesh.radiosity[v][axis]);
       // EV -1: half of it is shown.
-      CHECK(std::abs(vertex.color[k] - 255 * encode_srgb(std::min(mesh.radiosity[v][k] / 2, 1.0f))) <=
-            0.501f);
+      CHECK(std::abs(color[k] - 255 * encode_srgb(std::min(mesh.radiosity[v][axis] / 2, 1.0f))) <= 0.501f);
     }
   }
-  for (size_t t = 0; t < triangles.size(); ++t, at += sizeof(Face)) {
-    Face face;
-    std::memcpy(&face, at, sizeof face);
-    CHECK(face.count == 3);
-    for (size_t k = 0; k < 3; ++k) CHECK(face.corner[k] == triangles.corner[t][k]);
-    CHECK(face.patch == triangles.element[t]);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    uint8_t count = 0;
+    std::array<uint32_t, 3> corner;
+    uint32_t patch = 0;
+    read(count), read(corner), read(patch);
+    CHECK(count == 3);
+    CHECK(corner == triangles.corner[t]);
+    CHECK(patch == triangles.element[t]);
   }
 }

@@ -14,7 +14,7 @@ in vec3 position;
 #ifdef ROWS
 in float row;
 #endif
-#ifdef SEAMS
+#ifdef LINES
 in vec3 normal;
 #endif
 out vec3 shown;
@@ -27,10 +27,13 @@ void main() {
   // Clipped at the corners and not between them, as the program's pictures are.
   shown = clamp(gain * texelFetch(light, ivec2(at % ${textureWidth}, at / ${textureWidth}), 0).rgb, 0.0, 1.0);
   vec4 place = modelViewMatrix * vec4(position, 1.0);
-#ifdef SEAMS
-  // A hair further away, on the same ray: surfaces hide seams. Out of sight with the lit side.
-  place.xyz *= 1.005;
+#ifdef LINES
+  // Out of sight with the lit side.
   if (dot(place.xyz, mat3(modelViewMatrix) * normal) >= 0.0) place.xyz = vec3(0.0);
+#endif
+#ifdef SEAMS
+  // A hair further away, on the same ray: surfaces hide seams.
+  place.xyz *= 1.005;
 #endif
   gl_Position = projectionMatrix * place;
 }`;
@@ -129,6 +132,19 @@ function findEdges(data) {
   return edges.sort();
 }
 
+// Three numbers a vertex: the lit side of its polygon.
+function findNormals(data) {
+  const normals = new Float32Array(data.position.length);
+  const corner = k => new THREE.Vector3().fromArray(data.position, 3 * data.outline[k]);
+  for (let polygon = 0; polygon + 1 < data.polygonPatch.length; ++polygon) {
+    const first = data.outlineFirst[data.polygonPatch[polygon]];
+    const normal = corner(first + 1).sub(corner(first)).cross(corner(first + 2).sub(corner(first))).normalize();
+    for (let k = first; k < data.outlineFirst[data.polygonPatch[polygon + 1]]; ++k)
+      normal.toArray(normals, 3 * data.outline[k]);
+  }
+  return normals;
+}
+
 function makeLines(data, position) {
   const vertexCount = data.position.length / 3, index = [];
   findEdges(data).forEach((edge, k, edges) => {
@@ -136,6 +152,7 @@ function makeLines(data, position) {
   });
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', position);
+  geometry.setAttribute('normal', new THREE.BufferAttribute(findNormals(data), 3));
   geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from(index), 1));
   return geometry;
 }
@@ -143,19 +160,12 @@ function makeLines(data, position) {
 // The borders of all polygons. Neighbouring polygons are cut each by its own light, and between them pixels
 // may belong to neither: a line behind the border fills them.
 function makeSeams(data) {
-  const vertexCount = data.position.length / 3, position = [], row = [], normal = [];
-  const polygonOf = new Uint32Array(vertexCount), normals = [];
-  const corner = k => new THREE.Vector3().fromArray(data.position, 3 * data.outline[k]);
-  for (let polygon = 0; polygon < data.polygonPatch.length - 1; ++polygon) {
-    const first = data.outlineFirst[data.polygonPatch[polygon]];
-    normals.push(corner(first + 1).sub(corner(first)).cross(corner(first + 2).sub(corner(first))).normalize());
-    for (let k = first; k < data.outlineFirst[data.polygonPatch[polygon + 1]]; ++k) polygonOf[data.outline[k]] = polygon;
-  }
+  const vertexCount = data.position.length / 3, normals = findNormals(data), position = [], row = [], normal = [];
   findEdges(data).forEach((edge, k, edges) => {
     if (edge === edges[k - 1] || edge === edges[k + 1]) return;
     for (const vertex of [Math.floor(edge / vertexCount), edge % vertexCount]) {
       position.push(...data.position.subarray(3 * vertex, 3 * vertex + 3));
-      normal.push(...normals[polygonOf[vertex]]);
+      normal.push(...normals.subarray(3 * vertex, 3 * vertex + 3));
       row.push(vertex);
     }
   });
@@ -175,8 +185,8 @@ export function makeMesh(data) {
   const makers = {
     smooth: () => new THREE.Mesh(makeSmooth(data, position), makeMaterial(light.vertex, {}, behind)),
     flat: () => new THREE.Mesh(makeFlat(data), makeMaterial(light.patch, {ROWS: ''}, behind)),
-    lines: () => new THREE.LineSegments(makeLines(data, position), makeMaterial(light.vertex, {}, {})),
-    seams: () => new THREE.LineSegments(makeSeams(data), makeMaterial(light.vertex, {ROWS: '', SEAMS: ''}, {})),
+    lines: () => new THREE.LineSegments(makeLines(data, position), makeMaterial(light.vertex, {LINES: ''}, {})),
+    seams: () => new THREE.LineSegments(makeSeams(data), makeMaterial(light.vertex, {ROWS: '', LINES: '', SEAMS: ''}, {})),
   };
   const group = new THREE.Group(), made = {};
   let style = 'smooth', outlines = false, gain = 1;

@@ -9,7 +9,8 @@ const keys = {
   KeyE: [0, 1, 0], KeyQ: [0, -1, 0],
 };
 
-// {start(view), setMode('orbit' | 'walk'), step(seconds) -> true while it moves}. Calls changed() when the camera moved.
+// {start(view), setMode('orbit' | 'walk'), step(seconds, fast) -> true while it moves}. Calls changed() when somebody moves
+// the camera.
 export function makeMover(camera, element, changed) {
   let orbit = null, mode = 'orbit';
   const held = new Set();
@@ -65,7 +66,6 @@ export function makeMover(camera, element, changed) {
       camera.lookAt(orbit.target);
       orbit.update();
       orbit.addEventListener('change', changed);
-      changed();
     },
     setMode(name) {
       if (name === mode) return;
