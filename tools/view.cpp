@@ -155,8 +155,9 @@ int view(const Options& asked, Talk& talk) {
     if (options.view.label)
       draw_label(picture, fmt::format("{} @ {:g}, {:g} \xc2\xb7 pass {}", options.view.polygon,
                                       options.view.u, options.view.v, options.view.pass));
-    const std::string path = fmt::format("{}/{}-view-{}-pass-{:02}.png", folder.path, plan.stem,
-                                         options.view.polygon, options.view.pass);
+    const std::string path =
+        fmt::format("{}/{}-view-{}@{:g},{:g}-pass-{:02}.png", folder.path, plan.stem, options.view.polygon,
+                    options.view.u, options.view.v, options.view.pass);
     write_file(path, encode_png(picture));
     say_progress_done(talk);
     say(talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", ev));

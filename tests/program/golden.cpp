@@ -104,5 +104,5 @@ TEST_CASE("golden: its radiosity in false colours, with the legend") {
 TEST_CASE("golden: what a patch of a pillar sees") {
   const Folder folder;
   check_run({"view", kScene, "--size", "64", "--pass", "3", "--from", "pillars[0].0@0.5,0.25"}, folder);
-  check_golden(folder / "pillar_room-view-pillars[0].0-pass-03.png", "view.png");
+  check_golden(folder / "pillar_room-view-pillars[0].0@0.5,0.25-pass-03.png", "view.png");
 }

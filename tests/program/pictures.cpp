@@ -192,10 +192,11 @@ TEST_CASE("view shows what a patch sees before and after direct light, and says 
   const ChildResult result = look("floor@0.5,0.5", "1");
   INFO(result.err);
   CHECK(result.exit_code == 0);
-  CHECK(result.out == (folder / "lit/box-view-floor-pass-01.png") + "\n");
-  CHECK(list_names(folder / "lit") == "box-view-floor-pass-00.png box-view-floor-pass-01.png");
-  CHECK(read_bytes(folder / "lit/box-view-floor-pass-00.png") !=
-        read_bytes(folder / "lit/box-view-floor-pass-01.png"));
+  CHECK(result.out == (folder / "lit/box-view-floor@0.5,0.5-pass-01.png") + "\n");
+  CHECK(list_names(folder / "lit") ==
+        "box-view-floor@0.5,0.5-pass-00.png box-view-floor@0.5,0.5-pass-01.png");
+  CHECK(read_bytes(folder / "lit/box-view-floor@0.5,0.5-pass-00.png") !=
+        read_bytes(folder / "lit/box-view-floor@0.5,0.5-pass-01.png"));
   const ChildResult unknown = look("flor@0.5,0.5", "1");
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.err.find("did you mean 'floor'?") != std::string::npos);
