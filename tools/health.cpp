@@ -1,6 +1,8 @@
 // Rows of patches to sums and differences between polygons.
 #include "health.h"
 
+#include "engine/parallel.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,16 +51,24 @@ std::vector<double> find_reciprocity_errors(const Solution& solution, const Face
   if (!has_rows(solution) || hits.patch.empty() || polygon_count > kReciprocityMax) return {};
   const size_t n = polygon_count;
   std::vector<double> area(n, 0), exchange(n * n, 0);
-  for (size_t p = 0; p < patches.size(); ++p) {
-    const size_t row = solution.receivers.receiver_of[p];
-    const uint32_t polygon = faces.polygon[patches.face[p]], valid = hits.valid_count(row);
-    const double exposed_area = double{patches.area[p]} * patches.exposed[p];
-    area[polygon] += exposed_area;
-    if (valid == 0) continue;
-    for (size_t k = 0; k < hits.ray_count; ++k)
-      if (const uint32_t other = hits.patch[row * hits.ray_count + k]; other < kHitBuried)
-        exchange[polygon * n + faces.polygon[patches.face[other]]] += exposed_area / valid;
-  }
+  // Faces stand polygon by polygon, and patches face by face.
+  const auto first_patch = [&](size_t polygon) {
+    const auto face = std::lower_bound(faces.polygon.begin(), faces.polygon.end(), polygon);
+    return patches.face_first[static_cast<size_t>(face - faces.polygon.begin())];
+  };
+  for_rows(n, 1, [&](size_t begin, size_t end) {
+    for (size_t polygon = begin; polygon < end; ++polygon)
+      for (uint32_t p = first_patch(polygon); p < first_patch(polygon + 1); ++p) {
+        const size_t row = solution.receivers.receiver_of[p];
+        const uint32_t valid = hits.valid_count(row);
+        const double exposed_area = double{patches.area[p]} * patches.exposed[p];
+        area[polygon] += exposed_area;
+        if (valid == 0) continue;
+        for (size_t k = 0; k < hits.ray_count; ++k)
+          if (const uint32_t other = hits.patch[row * hits.ray_count + k]; other < kHitBuried)
+            exchange[polygon * n + faces.polygon[patches.face[other]]] += exposed_area / valid;
+      }
+  });
   std::vector<double> errors(n, 0);
   for (size_t i = 0; i < n; ++i)
     for (size_t j = 0; j < i; ++j) {

@@ -15,6 +15,7 @@ import numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import path_tracer  # noqa: E402
+from exr import read_exr  # noqa: E402
 
 # After the first pass light has been scattered once, at the surface that is seen; Cycles counts that as no bounce.
 PASSES = {"1": 0, "2": 1, "end": 64}
@@ -120,7 +121,7 @@ def patchlight_pictures(scene, options):
     """The pictures after passes 1, 2 and 16, the program's default, and the report."""
     run_patchlight(scene, options, ["--format", "exr", "--snapshots", "1,2,16"])
     name = os.path.join(options.o, os.path.splitext(os.path.basename(scene))[0])
-    pictures = {key: path_tracer.load_picture(f"{name}-pass-{number}.exr")
+    pictures = {key: read_exr(f"{name}-pass-{number}.exr")
                 for key, number in (("1", "01"), ("2", "02"), ("end", "16"))}
     with open(f"{name}-report.json") as report:
         return pictures, json.load(report)
