@@ -277,6 +277,16 @@ void check_limits(const Scene& scene, const Plan& plan) {
     if (!fault.empty()) throw UserError("image-too-large", fault, scene.file);
   }
   const uint64_t patches = plan.starting_patches;
+  // First what no budget of patches would mend.
+  const uint64_t solver_bytes = plan.solver->forecast_bytes(scene.faces, scene.solver, patches);
+  if (solver_bytes > plan.bytes_max)
+    throw UserError("memory-limit",
+                    fmt::format("--solver {} may need {} for {} patches; the limit is {}, what is available "
+                                "unless --max-memory says another; take fewer patches or --solver {}",
+                                plan.solver->name, format_bytes(solver_bytes),
+                                std::max(patches, scene.solver.patch_count_max), format_bytes(plan.bytes_max),
+                                solvers()[0].name),
+                    scene.file);
   if (patches > scene.solver.patch_count_max)
     throw UserError("too-many-patches",
                     fmt::format("the scene starts with {} patches; the limit is {}; raise max_patches "

@@ -76,6 +76,20 @@ TEST_CASE("a matrix that memory does not hold is refused before the solve") {
   }
 }
 
+TEST_CASE(
+    "a matrix of all the patches that a scene starts with is refused for its memory, and another way named") {
+  const Folder folder;
+  // 512 x 512 patches on the floor: a matrix of half a terabyte.
+  std::string text(kBoxScene);
+  const size_t at = text.find("subdivide: 4");
+  REQUIRE(at != std::string::npos);
+  write_bytes(folder / "box.yaml", text.replace(at, 12, "subdivide: 400"));
+  const ChildResult result = run_child(words(folder, {"--solver", "matrix"}));
+  CHECK(result.exit_code == 5);
+  CHECK_MESSAGE(result.err.find("error[memory-limit]: --solver matrix") != std::string::npos, result.err);
+  CHECK_MESSAGE(result.err.find("--solver passes") != std::string::npos, result.err);
+}
+
 TEST_CASE("a scene in which light never dies has no solution by the matrix: a mistake of the scene") {
   const Folder folder;
   write_bytes(folder / "box.yaml",
