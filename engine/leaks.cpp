@@ -12,7 +12,8 @@ namespace {
 constexpr double kEscapedLeast = 0.005, kEscapedMost = 0.3;
 constexpr float kNearEdge = 0.03f;      // of its length
 constexpr double kCrackShare = 0.6;     // of the rays that pass an edge nearest
-constexpr size_t kWorkMax = 4'000'000;  // pairs of a ray and an edge
+constexpr size_t kWorkMax = 1'000'000;  // pairs of a ray and an edge
+constexpr size_t kPatchesMost = 4096;   // that cast rays
 constexpr size_t kEscapesLeast = 200, kEscapesMost = 4000;
 
 struct Escape {
@@ -20,14 +21,17 @@ struct Escape {
   float weight;  // the area that it stands for
 };
 
-// One packet of rays from each patch, evenly over its directions; those that hit nothing.
+// One packet of rays from each of some patches all over the scene, evenly over its directions; those that hit
+// nothing.
 std::vector<Escape> find_escapes(const Solution& s, const FaceTable& faces, const Tracer& tracer,
                                  uint64_t seed, double& escaped) {
   const RowGrid grid = make_row_grid(kPacketSize);
-  std::vector<std::vector<Escape>> of_patch(s.patches.size());
-  for_rows(s.patches.size(), 64, [&](size_t begin, size_t end) {
+  const size_t stride = std::max<size_t>((s.patches.size() + kPatchesMost - 1) / kPatchesMost, 1);
+  std::vector<std::vector<Escape>> escapes_of((s.patches.size() + stride - 1) / stride);
+  for_rows(escapes_of.size(), 64, [&](size_t begin, size_t end) {
     HitPacket packet;
-    for (size_t p = begin; p < end; ++p) {
+    for (size_t row = begin; row < end; ++row) {
+      const size_t p = row * stride;
       if (s.patches.exposed[p] < 1) continue;
       const uint32_t face = s.patches.face[p];
       const uint64_t key = make_row_key(seed, face, s.patches.cell[p], s.patches.level[p], kRowLeaks);
@@ -37,16 +41,16 @@ std::vector<Escape> find_escapes(const Solution& s, const FaceTable& faces, cons
       const RayPacket& r = packet.ray;
       for (uint32_t k = 0; k < kPacketSize; ++k)
         if (packet.face[k] == kNone)
-          of_patch[p].push_back({{r.origin_x[k], r.origin_y[k], r.origin_z[k]},
-                                 {r.direction_x[k], r.direction_y[k], r.direction_z[k]},
-                                 s.patches.area[p] / kPacketSize});
+          escapes_of[row].push_back({{r.origin_x[k], r.origin_y[k], r.origin_z[k]},
+                                     {r.direction_x[k], r.direction_y[k], r.direction_z[k]},
+                                     s.patches.area[p] / kPacketSize});
     }
   });
   double area = 0;
-  for (size_t p = 0; p < s.patches.size(); ++p)
+  for (size_t p = 0; p < s.patches.size(); p += stride)
     if (s.patches.exposed[p] == 1) area += double{s.patches.area[p]};
   std::vector<Escape> escapes;
-  for (const auto& list : of_patch)
+  for (const auto& list : escapes_of)
     for (const Escape& escape : list) {
       escapes.push_back(escape);
       escaped += double{escape.weight} / area;
