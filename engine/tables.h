@@ -72,8 +72,9 @@ struct PatchTable {
   size_t size() const { return face.size(); }
 };
 
-// Why a leaf is as small as it is: its parent was split for the mesh to start from, for a difference of direct
-// light (a shadow's edge) or of light from other surfaces, or because a neighbour had become much smaller.
+// Why a leaf is as small as it is: its parent was split for the mesh to start from, for a difference of
+// direct light (a shadow's edge) or of light from other surfaces, or because a neighbour had become much
+// smaller.
 enum class SplitReason : uint8_t { kStart, kDirect, kIndirect, kBalance };
 
 // Corners of leaves, shared between neighbours. A corner in the middle of a coarser neighbour's edge
