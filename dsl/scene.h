@@ -80,6 +80,7 @@ struct Scene {
   DVec3 origin{0};
   double units_per_length = 1;
   double metres_per_unit = 1;
+  double metres_per_length() const { return units_per_length * metres_per_unit; }
 };
 
 }  // namespace patchlight

@@ -88,19 +88,13 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Pa
           irradiance += factor[k] * emission;
           continue;
         }
-        // Packets until enough rays agree (there is no shadow edge here then), or all if they do not; one for
-        // a lamp that is weak among many.
+        // One packet for a lamp that is weak among many.
         const double strength = factor[k] * luminance(emission);
         const uint32_t most = strength < kWeakLamp * unoccluded ? 1 : packet_count;
-        VisibilitySums sums;
-        for (uint32_t packet = 0; packet < most; ++packet) {
-          if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-          make_packets(packets, packet + 1, strata, elements, faces, frames, tracer, row, key);
-          add_visibility(sums, packets.points[packet], packets.open[packet], normal, lamp, frames, tracer,
-                         key, packet, strata);
-        }
+        const VisibilitySums sums = find_visibility(packets, most, rays.unmixed, strata, elements, lamp,
+                                                    faces, frames, tracer, row, key);
         cast += sums.rays;
-        const float visible = sums.all > 0 ? sums.seen / sums.all : 0;
+        const float visible = sums.share();
         if (sums.reached == sums.rays) seen |= uint64_t{1} << k;
         if (sums.reached == 0) hidden |= uint64_t{1} << k;
         irradiance += factor[k] * visible * emission;

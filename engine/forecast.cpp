@@ -67,6 +67,12 @@ double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
   return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 256, 0.4);
 }
 
+// The elements that a budget leads to, for solvers whose cost grows with all pairs of them.
+uint64_t count_elements_most(const FaceTable& faces, const SolverSettings& settings,
+                             uint64_t starting_patches) {
+  return std::max({starting_patches, settings.patch_count_max, uint64_t{faces.size()}});
+}
+
 }  // namespace
 
 Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
@@ -93,16 +99,6 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, 
                    forecast.patches * kPatchBytes + (settings.keep_rows ? row_rays * kRayBytes : 0);
   return forecast;
 }
-
-namespace {
-
-// The elements that a budget leads to, for solvers whose cost grows with all pairs of them.
-uint64_t count_elements_most(const FaceTable& faces, const SolverSettings& settings,
-                             uint64_t starting_patches) {
-  return std::max({starting_patches, settings.patch_count_max, uint64_t{faces.size()}});
-}
-
-}  // namespace
 
 uint64_t forecast_matrix_bytes(const FaceTable& faces, const SolverSettings& settings,
                                uint64_t starting_patches) {

@@ -77,7 +77,7 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
   PowerLedger ledger;
   for (uint32_t f = 0; f < faces.size(); ++f)
     ledger.emitted += double{cell_area(s.frames, f, 0, 0)} * DRgb(faces.emission[f]);
-  const double emitted_sum = ledger.emitted.r + ledger.emitted.g + ledger.emitted.b;
+  const double emitted_sum = sum_channels(ledger.emitted);
   // Emission is sent once the first pass has run.
   if (s.passes.empty()) {
     ledger.unshot = ledger.emitted;
@@ -86,7 +86,7 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
   for (const Sender& sender : find_senders(s, faces)) {
     const auto [face, cell, level] = sender;
     const DRgb power = double{cell_area(s.frames, face, cell, level)} * DRgb(faces.emission[face]);
-    const double share = (power.r + power.g + power.b) / std::max(emitted_sum, 1e-300);
+    const double share = sum_channels(power) / std::max(emitted_sum, 1e-300);
     const auto rays = static_cast<uint32_t>(std::clamp(share * kEmissionRays, 256.0, double{kEmissionRays}));
     const Shares shares = find_emission_shares(sender, rays, faces, s.frames, tracer, settings.seed);
     ledger.escaped += shares.nothing * power;
@@ -115,7 +115,7 @@ PowerLedger find_power_ledger(const Solution& s, const FaceTable& faces, const T
     }
   }
   const DRgb miss = ledger.emitted - ledger.absorbed - ledger.escaped - ledger.unshot;
-  ledger.closure_error = emitted_sum > 0 ? std::abs(miss.r + miss.g + miss.b) / emitted_sum : 0;
+  ledger.closure_error = emitted_sum > 0 ? std::abs(sum_channels(miss)) / emitted_sum : 0;
   return ledger;
 }
 

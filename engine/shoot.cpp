@@ -52,7 +52,7 @@ ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const La
                  const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, ShotRays rays,
                  uint64_t seed, uint64_t shot) {
   const uint32_t packet_count = std::clamp(rays.mixed / kPacketSize, 1u, kPacketsMax);
-  const Strata strata(packet_count), whole(1);
+  const Strata strata(packet_count);
   const uint64_t shot_key = mix_bits(shot + 1);
   std::atomic<uint64_t> factor_count{0}, ray_count{0};
   for_rows(elements.size(), 1024, [&](size_t begin, size_t end) {
@@ -83,15 +83,10 @@ ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const La
         if (dim.count == kPacketSize) finish_dim(irradiance, dim, sent, tracer);
         continue;
       }
-      VisibilitySums sums;
-      for (uint32_t packet = 0; packet < packet_count; ++packet) {
-        if (packet >= rays.unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-        make_packets(packets, packet + 1, strata, elements, faces, frames, tracer, row, key);
-        add_visibility(sums, packets.points[packet], packets.open[packet], normal, shooter, frames, tracer,
-                       key, packet, strata);
-      }
+      const VisibilitySums sums = find_visibility(packets, packet_count, rays.unmixed, strata, elements,
+                                                  shooter, faces, frames, tracer, row, key);
       cast += sums.rays;
-      if (sums.all > 0) irradiance[row] = factor * (sums.seen / sums.all) * sent;
+      irradiance[row] = factor * sums.share() * sent;
     }
     finish_dim(irradiance, dim, sent, tracer);
     factor_count += counted, ray_count += cast;

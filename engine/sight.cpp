@@ -45,6 +45,53 @@ float find_gap(Vec3 point, const Lamp& lamp, const FaceFrameTable& frames) {
   return distance(point, face_point(frames, lamp.face, lamp.cell.origin + lamp.cell.size * uv));
 }
 
+// Adds one packet of pairs: the element's points against points of the lamp. usable: which of them, a bit a
+// point.
+void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
+                    const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
+                    uint32_t packet, const Strata& strata) {
+  const bool triangle = frames.triangle[lamp.face];
+  // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one
+  // meets each axis of the other evenly.
+  const uint64_t lamp_key = mix_bits(key ^ lamp.key);
+  const auto shuffle = static_cast<uint32_t>(lamp_key >> 4 * (packet % 15));
+  float u[kPacketSize], v[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
+    const Vec2 uv =
+        cell_sample(triangle, lamp.cell, stratified_sample(lamp_key, packet, strata, column, row, k));
+    u[k] = uv.x, v[k] = uv.y;
+  }
+  Points targets;
+  make_face_points(targets, frames, lamp.face, ray_offset(lamp.centre) * lamp.normal, u, v);
+  RayPacket rays;
+  float kernel[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float x = targets.x[k] - points.x[k], y = targets.y[k] - points.y[k],
+                z = targets.z[k] - points.z[k];
+    const float squared = x * x + y * y + z * z;
+    const float jacobian = 1 + v[k] * lamp.twist.x + u[k] * lamp.twist.y;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float lamp_cosine = std::max(-(x * lamp.normal.x + y * lamp.normal.y + z * lamp.normal.z), 0.0f);
+    kernel[k] = cosine * lamp_cosine * jacobian / std::max(squared * squared, 1e-30f);
+    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
+    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
+  active &= usable;
+  if (!active) return;
+  const uint32_t blocked = find_blocked(tracer, rays, active);
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(active >> k & 1u)) continue;
+    sums.all += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  }
+  sums.rays += static_cast<uint32_t>(std::popcount(active));
+  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
 }  // namespace
 
 uint64_t make_element_key(const PatchTable& elements, uint32_t row, uint64_t seed) {
@@ -122,49 +169,19 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
   return sum / (static_cast<float>(part_count) * (triangle ? 3.0f : 4.0f));
 }
 
-void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
-                    const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
-                    uint32_t packet, const Strata& strata) {
-  const bool triangle = frames.triangle[lamp.face];
-  // Strata of the lamp are those of the element with the axes swapped and shuffled: each axis of the one
-  // meets each axis of the other evenly.
-  const uint64_t lamp_key = mix_bits(key ^ lamp.key);
-  const auto shuffle = static_cast<uint32_t>(lamp_key >> 4 * (packet % 15));
-  float u[kPacketSize], v[kPacketSize];
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
-    const Vec2 uv =
-        cell_sample(triangle, lamp.cell, stratified_sample(lamp_key, packet, strata, column, row, k));
-    u[k] = uv.x, v[k] = uv.y;
+VisibilitySums find_visibility(PointPackets& packets, uint32_t packet_count, uint32_t unmixed,
+                               const Strata& strata, const PatchTable& elements, const Lamp& lamp,
+                               const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
+                               uint32_t row, uint64_t key) {
+  const Vec3 normal = faces.normal[elements.face[row]];
+  VisibilitySums sums;
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    make_packets(packets, packet + 1, strata, elements, faces, frames, tracer, row, key);
+    add_visibility(sums, packets.points[packet], packets.open[packet], normal, lamp, frames, tracer, key,
+                   packet, strata);
   }
-  Points targets;
-  make_face_points(targets, frames, lamp.face, ray_offset(lamp.centre) * lamp.normal, u, v);
-  RayPacket rays;
-  float kernel[kPacketSize];
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const float x = targets.x[k] - points.x[k], y = targets.y[k] - points.y[k],
-                z = targets.z[k] - points.z[k];
-    const float squared = x * x + y * y + z * z;
-    const float jacobian = 1 + v[k] * lamp.twist.x + u[k] * lamp.twist.y;
-    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
-    const float lamp_cosine = std::max(-(x * lamp.normal.x + y * lamp.normal.y + z * lamp.normal.z), 0.0f);
-    kernel[k] = cosine * lamp_cosine * jacobian / std::max(squared * squared, 1e-30f);
-    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
-    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
-    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
-  }
-  uint32_t active = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
-  active &= usable;
-  if (!active) return;
-  const uint32_t blocked = find_blocked(tracer, rays, active);
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (!(active >> k & 1u)) continue;
-    sums.all += kernel[k];
-    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
-  }
-  sums.rays += static_cast<uint32_t>(std::popcount(active));
-  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+  return sums;
 }
 
 }  // namespace patchlight

@@ -65,12 +65,15 @@ float find_mean_factor(const PatchTable& elements, const FaceFrameTable& frames,
 struct VisibilitySums {
   float all = 0, seen = 0;         // of the kernel
   uint32_t rays = 0, reached = 0;  // counts
+  float share() const { return all > 0 ? seen / all : 0; }
 };
 
-// Adds one packet of pairs: the element's points against points of the lamp. usable: which of them, a bit a
-// point.
-void add_visibility(VisibilitySums& sums, const Points& points, uint32_t usable, Vec3 normal,
-                    const Lamp& lamp, const FaceFrameTable& frames, const Tracer& tracer, uint64_t key,
-                    uint32_t packet, const Strata& strata);
+// Packets of pairs of an element and a lamp: `unmixed` rays while they agree (there is no shadow edge here
+// then), up to `packet_count` packets where some arrive and some do not. Makes the packets of points that it
+// lacks.
+VisibilitySums find_visibility(PointPackets& packets, uint32_t packet_count, uint32_t unmixed,
+                               const Strata& strata, const PatchTable& elements, const Lamp& lamp,
+                               const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
+                               uint32_t row, uint64_t key);
 
 }  // namespace patchlight

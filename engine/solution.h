@@ -50,6 +50,16 @@ FactorTable find_element_factors(const Solution& solution, const FaceTable& face
 // Mean over the exposed area of each patch of a column of its elements.
 std::vector<Rgb> find_patch_means(const Solution& solution, std::span<const Rgb> column);
 
+// Writes what a step added into its report; added(row): the radiosity that it added to an element, W/m2.
+template <typename Added>
+void report_added(PassReport& report, const Solution& s, const Added& added) {
+  for (size_t row = 0; row < s.elements.size(); ++row) {
+    const Rgb radiosity = added(row);
+    report.added_power += double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(radiosity);
+    report.added_largest = std::max(report.added_largest, largest(radiosity));
+  }
+}
+
 // A column of the patches, as a surface, at the centres of the elements `rows` (a linear surface's mean over
 // them).
 template <typename Write>

@@ -122,12 +122,11 @@ const PassReport& solve_matrix(Solution& s, const FaceTable& faces, const Tracer
   report.ray_count = factors.ray_count;
   for (size_t row = 0; row < n; ++row) {
     const uint32_t face = s.elements.face[row];
-    const Rgb added = faces.reflectance[face] * s.direct[row];
-    s.elements.radiosity[row] = faces.emission[face] + added;
+    s.elements.radiosity[row] = faces.emission[face] + faces.reflectance[face] * s.direct[row];
     s.elements.unshot[row] = Rgb(0);
-    report.added_power += double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(added);
-    report.added_largest = std::max(report.added_largest, largest(added));
   }
+  report_added(report, s,
+               [&](size_t row) { return faces.reflectance[s.elements.face[row]] * s.direct[row]; });
   s.patches.radiosity = find_patch_means(s, s.elements.radiosity);
   std::fill(s.patches.unshot.begin(), s.patches.unshot.end(), Rgb(0));
   report.seconds = watch.read();

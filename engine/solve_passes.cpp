@@ -18,9 +18,10 @@ constexpr uint32_t kSourceCount = 400;
 // The rays of all rows, and a factor for each element and lamp aimed at.
 uint64_t count_factors(const Solution& s, const FaceTable& faces) {
   uint64_t count = uint64_t{s.hits.ray_count} * s.receivers.size();
-  for (const uint32_t face : s.elements.face) {
+  for (uint32_t face = 0; face < faces.size(); ++face) {
+    const uint64_t elements = s.elements.face_first[face + 1] - s.elements.face_first[face];
     const uint32_t list = s.aims.list_of[faces.polygon[face]];
-    count += s.aims.list_first[list + 1] - s.aims.list_first[list];
+    count += elements * (s.aims.list_first[list + 1] - s.aims.list_first[list]);
   }
   return count;
 }
@@ -63,11 +64,7 @@ const PassReport& advance(Solution& s, const FaceTable& faces, const Tracer& tra
     s.patches.unshot = find_patch_means(s, s.elements.unshot);
     s.patches.radiosity = find_patch_means(s, s.elements.radiosity);
   }
-  for (size_t row = 0; row < s.elements.size(); ++row) {
-    report.added_power +=
-        double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(s.elements.unshot[row]);
-    report.added_largest = std::max(report.added_largest, largest(s.elements.unshot[row]));
-  }
+  report_added(report, s, [&](size_t row) { return s.elements.unshot[row]; });
   report.unshot_power = report.added_power;  // the next pass sends it
   report.seconds = watch.read();
   s.seconds.solve += report.seconds;
@@ -78,10 +75,9 @@ bool is_converged(const Solution& s, const SolverSettings& settings) {
   if (s.passes.empty()) return false;
   const PassReport &first = s.passes.front(), &last = s.passes.back();
   if (last.added_largest == 0) return true;
-  const auto sum = [](const DRgb& power) { return power.r + power.g + power.b; };
   return static_cast<double>(last.added_largest) <
              settings.until * static_cast<double>(first.added_largest) &&
-         sum(last.added_power) < settings.until * sum(first.added_power);
+         sum_channels(last.added_power) < settings.until * sum_channels(first.added_power);
 }
 
 }  // namespace patchlight

@@ -14,8 +14,6 @@ namespace {
 // Of the scene's mean radiosity: a shot that brings an element less casts one ray from it.
 constexpr float kBrightShot = 0.01f;
 
-double sum_channels(const DRgb& power) { return power.r + power.g + power.b; }
-
 DRgb find_unshot_power(const Solution& s, size_t patch) {
   return double{s.patches.area[patch]} * s.patches.exposed[patch] * DRgb(s.patches.unshot[patch]);
 }
@@ -103,11 +101,8 @@ const PassReport& advance_shot(Solution& s, const FaceTable& faces, const Tracer
   s.factor_count += counts.factors;
   s.transport_ray_count += counts.rays;
   report.ray_count = counts.rays;
-  for (size_t row = 0; row < irradiance.size(); ++row) {
-    const Rgb added = faces.reflectance[s.elements.face[row]] * irradiance[row];
-    report.added_power += double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(added);
-    report.added_largest = std::max(report.added_largest, largest(added));
-  }
+  report_added(report, s,
+               [&](size_t row) { return faces.reflectance[s.elements.face[row]] * irradiance[row]; });
   for (size_t p = 0; p < s.patches.size(); ++p) report.unshot_power += find_unshot_power(s, p);
   s.shot_power += sum_channels(report.added_power);
   s.ambient = settings.ambient ? find_ambient(s, faces) : Rgb(0);

@@ -144,7 +144,7 @@ void add_things(Json& json, const Glb& glb) {
 }
 
 void add_cameras(Json& json, const Scene& scene) {
-  const double metres_per_length = scene.units_per_length * scene.metres_per_unit;
+  const double metres_per_length = scene.metres_per_length();
   for (const Camera& camera : scene.cameras) {
     const std::string name = camera.name.empty() ? "camera" : "camera " + camera.name;
     json["cameras"].push_back({{"name", name},

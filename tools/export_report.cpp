@@ -76,7 +76,7 @@ uint64_t count_rays(const RunReport& report, const Solution& solution) {
 
 std::string format_report(const RunReport& report, const Scene& scene, const Solution& solution) {
   // Areas are in engine lengths squared, powers in W/m2 times that.
-  const double metres_per_length = scene.units_per_length * scene.metres_per_unit;
+  const double metres_per_length = scene.metres_per_length();
   const double power_scale = metres_per_length * metres_per_length;
   Json json;
   json["patchlight"] = version_number();
@@ -103,7 +103,7 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                               {"split", round.split_count},
                               {"rays", round.ray_count},
                               {"seconds", round.seconds}});
-  const std::string step(report.solver.step), steps = fmt::format("{}{}", step, step == "pass" ? "es" : "s");
+  const std::string step(report.solver.step), steps = name_steps(step);
   json["solver"] = report.solver.name;
   json["form_factors_found"] = solution.factor_count;
   json[steps] = Json::array();

@@ -5,7 +5,7 @@ namespace patchlight {
 
 ObjectPowerTable find_object_power(const Scene& scene, const Solution& solution) {
   const size_t count = scene.object_ids.size();
-  const double metres_per_length = scene.units_per_length * scene.metres_per_unit;
+  const double metres_per_length = scene.metres_per_length();
   ObjectPowerTable power{std::vector<double>(count, 0), std::vector<DRgb>(count, DRgb(0)),
                          std::vector<DRgb>(count, DRgb(0)), std::vector<DRgb>(count, DRgb(0))};
   const PatchTable& elements = solution.elements;

@@ -93,7 +93,7 @@ View make_view(const Camera& camera) {
 bool wants(const Run& run, PixelKind pixels) {
   for (const Exporter* exporter : run.plan.exporters)
     if (exporter->pixels == pixels) return true;
-  return pixels == PixelKind::kDisplay && (run.plan.storyboard || run.plan.animate_passes);
+  return pixels == PixelKind::kDisplay && (run.plan.storyboard || run.plan.animate_shots);
 }
 
 std::vector<Rgb> find_radiosity(const Run& run) {

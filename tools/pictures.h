@@ -10,7 +10,7 @@ inline const Rgb kNothingColor{0.02f};
 
 View make_view(const Camera& camera);
 
-// True if pictures with such pixels are asked for.
+// True if snapshots with such pixels are asked for, as files, panels or frames.
 bool wants(const Run& run, PixelKind pixels);
 
 // Once the mesh is final: the films, and what all pictures of the run have in common, so that a finished one

@@ -20,18 +20,16 @@ namespace {
 
 constexpr int kExitNotConverged = 6;
 
-double sum_channels(const DRgb& power) { return power.r + power.g + power.b; }
-
 // Sends the pictures of the current state to the files of all `steps`.
 void write_snapshots(Run& run, std::span<const uint32_t> steps) {
   if (steps.empty() || !run.plan.has_pictures()) return;
   LapWatch watch;
   const std::vector<Rgb> radiosity = find_radiosity(run);
   check_values(run, radiosity);
-  take_snapshot(run, radiosity);
   const std::vector<Rgb> lit = pick_light(run.light, radiosity, run.plan.look.light);
   std::vector<Rgb> shown;
   if (wants(run, PixelKind::kDisplay)) shown = show_values(run, lit);
+  take_snapshot(run, radiosity, shown);
   for (size_t k = 0; k < run.films.size(); ++k)
     for (const Exporter* exporter : run.plan.exporters) {
       if (!has_pixels(exporter->pixels)) continue;

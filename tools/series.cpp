@@ -20,7 +20,7 @@ constexpr const char* kDot = " \xc2\xb7 ";
 double find_watts(const Run& run, size_t pass) {
   DRgb power(0);
   for (; pass < run.solution.passes.size(); ++pass) power += run.solution.passes[pass].added_power;
-  const double metres = run.scene.units_per_length * run.scene.metres_per_unit;
+  const double metres = run.scene.metres_per_length();
   return double{luminance(Rgb(power))} * metres * metres;
 }
 
@@ -105,10 +105,9 @@ void take_pass(Run& run) {
   run.report.seconds.render += watch.lap();
 }
 
-void take_snapshot(Run& run, const std::vector<Rgb>& radiosity) {
+void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const Rgb> shown) {
   if (!run.plan.storyboard && !run.plan.animate_shots) return;
   Series& series = run.series;
-  const std::vector<Rgb> shown = show_values(run, pick_light(run.light, radiosity, run.plan.look.light));
   if (run.plan.animate_shots) add_step_frames(run, series.shots, kShotSeconds, shown);
   if (!run.plan.storyboard) return;
   const std::vector<Rgb> added =
@@ -161,7 +160,7 @@ void write_plots(Run& run) {
   LapWatch watch;
   const PlotText text{.title = run.scene.title.empty() ? run.plan.stem : run.scene.title,
                       .step = run.plan.solver->step,
-                      .metres_per_length = run.scene.units_per_length * run.scene.metres_per_unit,
+                      .metres_per_length = run.scene.metres_per_length(),
                       .until = run.scene.solver.until};
   const std::string stem = run.folder + "/" + run.plan.stem;
   for (const auto& [path, svg] :

@@ -12,8 +12,8 @@ void take_round(Run& run, const Tracer& tracer);
 void take_pass(Run& run);
 
 // After the passes or shots that are to be pictured: radiosity at the values of the films, for
-// S-storyboard.png and S-shots.gif.
-void take_snapshot(Run& run, const std::vector<Rgb>& radiosity);
+// S-storyboard.png and S-shots.gif, and the same as a display shows it.
+void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const Rgb> shown);
 
 // Sends what was taken to its files.
 void write_series(Run& run);
