@@ -1,12 +1,30 @@
 // The verb check: everything that render does before it takes memory.
-#include "check.h"
-
+#include "files.h"
+#include "flag_groups.h"
 #include "memory.h"
 #include "plan.h"
+#include "talk.h"
 
 #include <fmt/format.h>
 
 namespace patchlight {
+namespace {
+
+constexpr const char* kHelp =
+    R"(Reads a scene, says what is wrong with it, counts it and forecasts its memory; solves nothing.
+
+Examples:
+  patchlight check room.yaml
+  patchlight check room.yaml --json                 the messages as a JSON list, for editors
+)";
+
+}  // namespace
+
+void describe_check(Usage& usage, Options& options) {
+  usage.help = kHelp;
+  add_common_flags(usage, options);
+  add_method_flags(usage, options);
+}
 
 int check(const Options& options, Talk& talk) {
   if (!options.json) check_standard_output();

@@ -1,5 +1,9 @@
-// Verbs and flags to a script that makes a shell complete them.
+// The verb completion: verbs and flags to a script that makes a shell complete them.
 #include "completion.h"
+
+#include "files.h"
+#include "flag_values.h"
+#include "verbs.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +13,19 @@
 namespace patchlight {
 namespace {
 
+constexpr const char* kHelp =
+    R"(Prints what makes a shell complete verbs, flags and their values.
+
+Examples:
+  source <(patchlight completion bash)              bash: here and now; in ~/.bashrc: always
+  patchlight completion zsh > ~/.zfunc/_patchlight  zsh: in a folder of $fpath, before compinit
+)";
+
+struct CompletionOptions {
+  Shell shell = Shell::kBash;
+  std::string word;  // as it was given
+};
+
 bool has_choices(const std::string& value) { return value.find('|') != std::string::npos; }
 
 // "a|b|c,..." -> "a b c".
@@ -17,8 +34,6 @@ std::string choices_of(std::string value) {
   std::replace(value.begin(), value.end(), '|', ' ');
   return value;
 }
-
-std::string argument_choices(const VerbWords& verb) { return verb.argument == "SHELL" ? "bash zsh" : ""; }
 
 bool is_list(const std::string& value) { return value.ends_with(",..."); }
 
@@ -35,13 +50,13 @@ std::string bash_value(const std::string& value) {
 std::string bash_flags(const VerbWords& verb) {
   std::string text;
   std::vector<std::string> free;
-  for (const FlagWords& flag : verb.flags) {
+  for (const Flag& flag : verb.usage.flags) {
     if (flag.value.empty()) continue;
     const std::string offer = bash_value(flag.value);
     if (offer.empty())
-      free.insert(free.end(), flag.names.begin(), flag.names.end());
+      free.push_back(flag.name);
     else
-      text += fmt::format("        {}) {}; return ;;\n", fmt::join(flag.names, "|"), offer);
+      text += fmt::format("        {}) {}; return ;;\n", flag.name, offer);
   }
   if (!free.empty()) text += fmt::format("        {}) return ;;\n", fmt::join(free, "|"));
   return text;
@@ -53,13 +68,14 @@ std::string format_bash(std::span<const VerbWords> verbs) {
   for (const VerbWords& verb : verbs) {
     names.push_back(verb.name);
     std::vector<std::string> flags;
-    for (const FlagWords& flag : verb.flags) flags.insert(flags.end(), flag.names.begin(), flag.names.end());
-    const std::string choices = argument_choices(verb);
+    for (const Flag& flag : verb.usage.flags) flags.push_back(flag.name);
+    const Argument& argument = verb.usage.argument;
+    const std::string choices = choices_of(argument.value);
     cases += fmt::format("    {})\n      case $before in\n{}      esac\n", verb.name, bash_flags(verb));
     cases += fmt::format("      if [[ $word == -* ]]; then _patchlight_words '{}'; else {}; fi ;;\n",
                          fmt::join(flags, " "),
                          !choices.empty()        ? fmt::format("_patchlight_words '{}'", choices)
-                         : verb.argument.empty() ? ":"
+                         : argument.name.empty() ? ":"
                                                  : "_patchlight_files -f");
   }
   return fmt::format(R"(# patchlight: completion for bash, by `patchlight completion bash`.
@@ -118,14 +134,14 @@ std::string format_zsh(std::span<const VerbWords> verbs) {
   for (const VerbWords& verb : verbs) {
     names += fmt::format("    '{}:{}'\n", verb.name, zsh_escape(verb.help));
     cases += fmt::format("    {})\n      _arguments", verb.name);
-    for (const FlagWords& flag : verb.flags)
-      for (const std::string& name : flag.names)
-        cases += fmt::format(
-            " \\\n        '*{}[{}]{}'", name, zsh_escape(flag.help),
-            flag.value.empty() ? "" : fmt::format(":{}:{}", zsh_escape(flag.value), zsh_value(flag.value)));
-    const std::string choices = argument_choices(verb);
-    if (!verb.argument.empty())
-      cases += fmt::format(" \\\n        '*:{}:{}'", verb.argument,
+    for (const Flag& flag : verb.usage.flags)
+      cases += fmt::format(
+          " \\\n        '*{}[{}]{}'", flag.name, zsh_escape(flag.help),
+          flag.value.empty() ? "" : fmt::format(":{}:{}", zsh_escape(flag.value), zsh_value(flag.value)));
+    const Argument& argument = verb.usage.argument;
+    const std::string choices = choices_of(argument.value);
+    if (!argument.name.empty())
+      cases += fmt::format(" \\\n        '*:{}:{}'", argument.name,
                            choices.empty() ? "_files" : fmt::format("({})", choices));
     cases += " ;;\n";
   }
@@ -158,6 +174,34 @@ fi
 
 std::string format_completion(Shell shell, std::span<const VerbWords> verbs) {
   return shell == Shell::kBash ? format_bash(verbs) : format_zsh(verbs);
+}
+
+std::vector<VerbWords> list_words() {
+  std::vector<VerbWords> list;
+  for (const Verb& verb : verbs()) {
+    Options options;  // nothing is read into it
+    VerbWords words{std::string(verb.name), std::string(verb.summary), {}};
+    // CLI11 gives these two to every verb.
+    for (const char* name : {"-h", "--help"})
+      words.usage.flags.push_back({name, "", "Print this help message and exit"});
+    verb.describe(words.usage, options);
+    list.push_back(std::move(words));
+  }
+  return list;
+}
+
+void describe_completion(Usage& usage, Options& options) {
+  CompletionOptions& own = options.own.emplace<CompletionOptions>();
+  usage.help = kHelp;
+  usage.argument = {.name = "SHELL", .value = "bash|zsh", .help = "bash or zsh", .word = &own.word};
+  usage.checks.push_back([&own] {
+    own.shell = static_cast<Shell>(parse_choice("completion", own.word, {"bash", "zsh"}));
+  });
+}
+
+int print_completion(const Options& options, Talk&) {
+  print_result(format_completion(get_own<CompletionOptions>(options).shell, list_words()));
+  return 0;
 }
 
 }  // namespace patchlight

@@ -1,23 +1,21 @@
 // Verbs and flags to a script that makes a shell complete them.
 #pragma once
 
+#include "usage.h"
+
 #include <span>
 #include <string>
 #include <vector>
 
 namespace patchlight {
 
-struct FlagWords {
-  std::vector<std::string> names;  // -o, --passes
-  std::string value;  // what its value is called: FILE, DIR, a|b|c, a|b|c,...; empty: it takes none
-  std::string help;
-};
-
 struct VerbWords {
   std::string name, help;
-  std::string argument;  // SCENE, SHELL; empty: none
-  std::vector<FlagWords> flags;
+  Usage usage;
 };
+
+// All verbs, as the command line knows them.
+std::vector<VerbWords> list_words();
 
 enum class Shell { kBash, kZsh };
 

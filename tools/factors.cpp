@@ -4,6 +4,8 @@
 
 #include "engine/parallel.h"
 #include "files.h"
+#include "flag_groups.h"
+#include "flag_values.h"
 #include "json.h"
 #include "memory.h"
 #include "plan.h"
@@ -18,6 +20,19 @@
 
 namespace patchlight {
 namespace {
+
+constexpr const char* kHelp =
+    R"(Prints the form factors (view factors) between the polygons of a scene: a row a polygon, with its area, the
+factors to all polygons in the order of the scene, and their sum, which is not adjusted.
+
+Examples:
+  patchlight factors duct.yaml > duct.csv
+  patchlight factors duct.yaml --format json        with an estimated error beside every factor
+  patchlight factors duct.yaml --error 1e-4         more rays where something stands between polygons
+  patchlight factors duct.yaml -D gap=0.02          a variable of the scene
+
+Factors between polygons with nothing in between are exact (1e-6) and need no rays.
+)";
 
 constexpr size_t kChunkBytes = size_t{1} << 20;
 constexpr size_t kWorstCount = 5;
@@ -178,6 +193,18 @@ void format_factors_json(const PutText& put, const Scene& scene, const FactorTab
   writer.flush();
 }
 
+void describe_factors(Usage& usage, Options& options) {
+  usage.help = kHelp;
+  FactorOptions& factors = options.own.emplace<FactorOptions>();
+  add_scene(usage, options);
+  add_run_flags(usage, options);
+  add_choice(usage, "--format", {"csv", "json"}, "csv unless given",
+             [&factors](size_t choice) { factors.format = static_cast<FactorFormat>(choice); });
+  add_value(usage, "--error", "E", "no estimated error of a factor is larger; 0.001 unless given",
+            [&factors](const std::string& text) { factors.error = parse_number("--error", text, 1e-6, 1); });
+  add_talk_flags(usage, options);
+}
+
 int factors(const Options& options, Talk& talk) {
   const auto start = std::chrono::steady_clock::now();
   if (!options.json) check_standard_output();
@@ -191,7 +218,8 @@ int factors(const Options& options, Talk& talk) {
 
   const StopSignals signals;
   start_threads(options, talk);
-  const FactorSettings settings{options.factors.error, options.seed.value_or(scene.solver.seed)};
+  const FactorOptions& own = get_own<FactorOptions>(options);
+  const FactorSettings settings{own.error, options.seed.value_or(scene.solver.seed)};
   const size_t n = scene.polygons.size();
   const Tracer tracer = make_tracer(scene.faces);
   const FactorScene factor_scene = make_factor_scene(scene.faces, n);
@@ -208,7 +236,7 @@ int factors(const Options& options, Talk& talk) {
   say_progress_done(talk);
 
   const FactorSummary summary = summarize_factors(table);
-  if (options.factors.format == FactorFormat::kCsv)
+  if (own.format == FactorFormat::kCsv)
     format_factors_csv(print_result, scene, table, summary);
   else
     format_factors_json(print_result, scene, table, summary, settings);

@@ -9,6 +9,13 @@
 
 namespace patchlight {
 
+enum class FactorFormat { kCsv, kJson };
+
+struct FactorOptions {
+  FactorFormat format = FactorFormat::kCsv;
+  double error = 1e-3;  // of each factor, three standard errors
+};
+
 // Returns 0, or 128 and the signal that stopped it. Throws UserError.
 int factors(const Options& options, Talk& talk);
 

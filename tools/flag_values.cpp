@@ -3,7 +3,6 @@
 
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
-#include "exporters.h"
 #include "options.h"
 
 #include <fmt/format.h>
@@ -91,33 +90,6 @@ std::array<uint32_t, 2> parse_size(std::string_view text) {
   const uint64_t width = parse_count("--size", text.substr(0, cross), 1, ~uint32_t{0});
   const uint64_t height = parse_count("--size", text.substr(cross + 1), 1, ~uint32_t{0});
   return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-}
-
-std::vector<std::string> parse_formats(std::string_view text) {
-  const std::vector<std::string> known = exporter_formats();
-  std::vector<std::string> formats;
-  for (const std::string& part : split_list(text)) {
-    if (std::find(known.begin(), known.end(), part) == known.end())
-      fail_usage(fmt::format("--format: '{}' is not a format{}; known: {}", escape_text(part),
-                             hint(part, known), fmt::join(known, ", ")));
-    if (std::find(formats.begin(), formats.end(), part) == formats.end()) formats.push_back(part);
-  }
-  return formats;
-}
-
-ViewOptions parse_place(const std::string& text, ViewOptions view) {
-  const size_t at = text.rfind('@');
-  const std::vector<std::string> uv =
-      at == std::string::npos ? std::vector<std::string>{} : split_list(text.substr(at + 1));
-  if (at == 0 || uv.size() != 2)
-    fail_usage(
-        fmt::format("--from: found '{}', expected a polygon's id and a point of it, such as "
-                    "hall.floor@0.5,0.8",
-                    escape_text(text)));
-  view.polygon = text.substr(0, at);
-  view.u = parse_number("--from", uv[0], 0, 1);
-  view.v = parse_number("--from", uv[1], 0, 1);
-  return view;
 }
 
 size_t parse_choice(std::string_view flag, const std::string& text, const std::vector<std::string>& choices) {

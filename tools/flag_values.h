@@ -31,10 +31,6 @@ double parse_number(std::string_view flag, std::string_view text, double low, do
 std::vector<uint32_t> parse_steps(std::string_view flag, std::string_view text);
 // "960x720". Limits are checked with those of the scene's cameras.
 std::array<uint32_t, 2> parse_size(std::string_view text);
-// "png,csv": names of exporters, repeats dropped.
-std::vector<std::string> parse_formats(std::string_view text);
-// "hall.floor@0.5,0.8" over `view`: what follows the last @ are u and v, 0..1.
-ViewOptions parse_place(const std::string& text, ViewOptions view);
 // The index of `text` in `choices`.
 size_t parse_choice(std::string_view flag, const std::string& text, const std::vector<std::string>& choices);
 

@@ -1,16 +1,9 @@
 // Words of the command line -> exit code. All exceptions end here.
 #include "program.h"
 
-#include "bench.h"
-#include "check.h"
 #include "command_line.h"
-#include "factors.h"
 #include "files.h"
 #include "json.h"
-#include "render.h"
-#include "show.h"
-#include "verify.h"
-#include "view.h"
 
 #include <fmt/format.h>
 
@@ -34,29 +27,6 @@ Json make_messages(const std::vector<Diagnostic>& diagnostics) {
   return messages;
 }
 
-int run_verb(const Options& options, Talk& talk) {
-  switch (options.verb) {
-    case Verb::kRender:
-      return render(options, talk);
-    case Verb::kView:
-      return view(options, talk);
-    case Verb::kCheck:
-      return check(options, talk);
-    case Verb::kVerify:
-      return verify(options, talk);
-    case Verb::kShow:
-      return show(options, talk);
-    case Verb::kFactors:
-      return factors(options, talk);
-    case Verb::kBench:
-      return bench(options, talk);
-    case Verb::kPrinted:
-      break;
-  }
-  print_result(options.text);
-  return 0;
-}
-
 int report_user_error(const UserError& error, Talk& talk) {
   say_diagnostics(talk, error.diagnostics);
   if (error.more > 0 && !talk.json) say(talk, fmt::format("{} more errors", error.more));
@@ -68,9 +38,11 @@ int report_user_error(const UserError& error, Talk& talk) {
 // Parses and runs; every failure becomes a message and a code.
 int run_and_report(const std::vector<std::string>& words, Talk& talk) {
   try {
-    const Options options = parse_command_line(words);
-    talk = make_talk(options);
-    return run_verb(options, talk);
+    const Command command = parse_command_line(words);
+    talk = make_talk(command.options);
+    if (command.verb != nullptr) return command.verb->run(command.options, talk);
+    print_result(command.text);
+    return 0;
   } catch (const UserError& error) {
     return report_user_error(error, talk);
   } catch (const std::bad_alloc&) {
@@ -88,9 +60,7 @@ int run_and_report(const std::vector<std::string>& words, Talk& talk) {
 int run_program(int argument_count, const char* const* arguments) {
   const std::vector<std::string> words(arguments + std::min(argument_count, 1), arguments + argument_count);
   Options before;  // How to speak while the command line is not understood yet.
-  // For bench --json names a file.
-  const bool is_bench = !words.empty() && words.front() == "bench";
-  before.json = !is_bench && std::find(words.begin(), words.end(), "--json") != words.end();
+  before.json = wants_json(words);
   Talk talk = make_talk(before);
   const int code = run_and_report(words, talk);
   if (!talk.json) return code;

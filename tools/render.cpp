@@ -207,6 +207,7 @@ void warn_not_converged(Run& run) {
 
 int render(const Options& options, Talk& talk) {
   LapWatch whole, watch;
+  const RenderOptions& own = get_own<RenderOptions>(options);
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
   Run run(talk);
@@ -220,7 +221,7 @@ int render(const Options& options, Talk& talk) {
   const OutputFolder folder = open_output_folder(options.out);
   run.folder = folder.path;
   const std::string report_path =
-      options.report.empty() ? fmt::format("{}/{}-report.json", run.folder, run.plan.stem) : options.report;
+      own.report.empty() ? fmt::format("{}/{}-report.json", run.folder, run.plan.stem) : own.report;
   check_file_writable(report_path);
 
   run.report.thread_count = start_threads(options, talk);
@@ -247,7 +248,7 @@ int render(const Options& options, Talk& talk) {
     print_result(paths);
   }
   if (run.report.stopped_reason == "signal") return 128 + stop_signal();
-  return options.require_convergence && run.report.stopped_reason != "converged" ? kExitNotConverged : 0;
+  return own.require_convergence && run.report.stopped_reason != "converged" ? kExitNotConverged : 0;
 }
 
 }  // namespace patchlight

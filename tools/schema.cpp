@@ -3,13 +3,23 @@
 
 #include "dsl/shapes.h"
 #include "dsl/values.h"
+#include "files.h"
 #include "json.h"
+#include "verbs.h"
 
 #include <cmath>
 #include <sstream>
 
 namespace patchlight {
 namespace {
+
+constexpr const char* kHelp =
+    R"(Prints the JSON Schema (draft-07) of the scene language, made from the tables that scenes are read by.
+
+Examples:
+  patchlight schema > patchlight.schema.json        for editors; in a scene's first line:
+  # yaml-language-server: $schema=./patchlight.schema.json
+)";
 
 constexpr const char* kNamePattern = "^[A-Za-z_][A-Za-z0-9_.-]*$";
 
@@ -174,6 +184,13 @@ std::string format_schema() {
   for (const ShapeRow& shape : shape_rows())
     definitions["object"]["oneOf"].push_back(required_of(shape.name));
   return format_json(schema);
+}
+
+void describe_schema(Usage& usage, Options&) { usage.help = kHelp; }
+
+int print_schema(const Options&, Talk&) {
+  print_result(format_schema());
+  return 0;
 }
 
 }  // namespace patchlight

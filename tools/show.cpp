@@ -2,6 +2,8 @@
 #include "show.h"
 
 #include "files.h"
+#include "flag_groups.h"
+#include "flag_values.h"
 #include "plan.h"
 
 #include <fmt/format.h>
@@ -11,6 +13,16 @@
 
 namespace patchlight {
 namespace {
+
+constexpr const char* kHelp =
+    R"(Shows what a scene means once everything is put together; solves nothing.
+
+Examples:
+  patchlight show room.yaml --effective             every setting with its origin
+  patchlight show room.yaml --effective -D w=8 --set solver.rays=64 --passes 4
+
+Origins, the weaker first: built-in, FILE:LINE:COLUMN, -D and --set, other flags.
+)";
 
 void set(SettingTable& settings, size_t row, std::string value, std::string origin) {
   settings.value[row] = std::move(value);
@@ -77,6 +89,17 @@ SettingTable merge_flags(const Scene& scene, const Options& options) {
               "built-in: the scene file's name");
   merge_camera_flags(settings, options);
   return settings;
+}
+
+void describe_show(Usage& usage, Options& options) {
+  usage.help = kHelp;
+  bool& effective = options.own.emplace<ShowOptions>().effective;
+  add_common_flags(usage, options);
+  add_look_flags(usage, options);
+  add_switch(usage, "--effective", effective, "the merged settings with their origins");
+  usage.checks.push_back([&effective] {
+    if (!effective) fail_usage("show: say what: --effective shows the merged settings");
+  });
 }
 
 int show(const Options& options, Talk& talk) {

@@ -6,6 +6,10 @@
 
 namespace patchlight {
 
+struct ShowOptions {
+  bool effective = false;  // the merged settings
+};
+
 // Returns the exit code 0. Throws UserError.
 int show(const Options& options, Talk& talk);
 

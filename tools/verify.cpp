@@ -1,9 +1,8 @@
 // The verb verify: solve as render does, but compare means in place of taking pictures.
-#include "verify.h"
-
 #include "engine/parallel.h"
 #include "expectations.h"
 #include "files.h"
+#include "flag_groups.h"
 #include "plan.h"
 #include "start.h"
 #include "stop.h"
@@ -14,6 +13,20 @@
 
 namespace patchlight {
 namespace {
+
+constexpr const char* kHelp =
+    R"(Solves a scene and compares the light with what the scene says under `expect:`.
+
+Examples:
+  patchlight verify room.yaml                       exit code 0: as expected, 1: not so
+  patchlight verify room.yaml --rays 1024           is a difference only noise?
+
+In the scene:
+  expect:
+    - {object: hall.floor, pass: 16, radiosity: [1.2, 1.1, 0.9], tolerance: 0.02}
+
+Compared are area means, after that pass; a run that converged earlier is compared as it stands at its end.
+)";
 
 // What came of each expectation of the scene.
 struct Results {
@@ -90,6 +103,13 @@ void report(const Scene& scene, const Results& results, Talk& talk) {
 }
 
 }  // namespace
+
+void describe_verify(Usage& usage, Options& options) {
+  usage.help = kHelp;
+  add_scene(usage, options);
+  add_solver_flags(usage, options);
+  add_talk_flags(usage, options);
+}
 
 int verify(const Options& options, Talk& talk) {
   if (!options.json) check_standard_output();

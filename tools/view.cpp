@@ -8,6 +8,8 @@
 #include "exporters.h"
 #include "exposure.h"
 #include "files.h"
+#include "flag_groups.h"
+#include "flag_values.h"
 #include "lettering.h"
 #include "plan.h"
 #include "start.h"
@@ -21,7 +23,34 @@
 namespace patchlight {
 namespace {
 
+constexpr const char* kHelp =
+    R"(Shows what a patch sees: all directions before it in a circle, the normal in the middle, 90 degrees off it at the rim.
+
+Examples:
+  patchlight view room.yaml --from hall.floor@0.5,0.5
+  patchlight view room.yaml --from 'pillars[0].2@0.5,0.8' --pass 0 --label    before any light is sent
+  patchlight view room.yaml --from 'pillars[0].2@0.5,0.8' --pass 1 --label    and once direct light is there
+
+u,v: 0..1 along the polygon's first edge and across, in the rectangle around it. Back sides are black.
+)";
+
 const Rgb kRing{0.21f};
+
+// "hall.floor@0.5,0.8" over `view`: what follows the last @ are u and v, 0..1.
+ViewOptions parse_place(const std::string& text, ViewOptions view) {
+  const size_t at = text.rfind('@');
+  const std::vector<std::string> uv =
+      at == std::string::npos ? std::vector<std::string>{} : split_list(text.substr(at + 1));
+  if (at == 0 || uv.size() != 2)
+    fail_usage(
+        fmt::format("--from: found '{}', expected a polygon's id and a point of it, such as "
+                    "hall.floor@0.5,0.8",
+                    escape_text(text)));
+  view.polygon = text.substr(0, at);
+  view.u = parse_number("--from", uv[0], 0, 1);
+  view.v = parse_number("--from", uv[1], 0, 1);
+  return view;
+}
 
 // The row of a polygon's id.
 uint32_t find_polygon(const Scene& scene, const std::string& id) {
@@ -82,7 +111,7 @@ double pick_exposure(const Scene& scene, const Solution& solution, const FilmTab
 }
 
 // Solves as far as the picture needs; the picture is that of the last pass where the run converges before.
-Picture solve(const Scene& scene, const Options& options, const View& view, double& ev, Talk& talk) {
+Picture solve(const Scene& scene, uint32_t pass_last, Tone tone, const View& view, double& ev, Talk& talk) {
   const Tracer tracer = make_tracer(scene.faces);
   Solution solution = make_solution(scene.faces, tracer, scene.solver);
   while (refine(solution, scene.faces, tracer, scene.solver))
@@ -90,12 +119,11 @@ Picture solve(const Scene& scene, const Options& options, const View& view, doub
   freeze(solution, scene.faces, tracer, scene.solver);
   const FilmTable film = make_film(solution, scene.faces, tracer, view, {.seed = scene.solver.seed});
   ev = pick_exposure(scene, solution, film);
-  while (solution.passes.size() < options.view.pass && !is_converged(solution, scene.solver)) {
+  while (solution.passes.size() < pass_last && !is_converged(solution, scene.solver)) {
     const uint32_t pass = advance(solution, scene.faces, tracer, scene.solver).pass;
-    say_progress(talk, fmt::format("pass {} of {}", pass, options.view.pass));
+    say_progress(talk, fmt::format("pass {} of {}", pass, pass_last));
   }
-  const std::vector<Rgb> shown =
-      expose_values(vertex_radiosity(solution, scene.faces), ev, options.look.tone);
+  const std::vector<Rgb> shown = expose_values(vertex_radiosity(solution, scene.faces), ev, tone);
   return {film.width, film.height, expose(film, shown)};
 }
 
@@ -128,36 +156,62 @@ PatchPlace find_patch_place(const Scene& scene, const ViewOptions& view) {
   return {};
 }
 
+void describe_view(Usage& usage, Options& options) {
+  usage.help = kHelp;
+  ViewOptions& view = options.own.emplace<ViewOptions>();
+  add_scene(usage, options);
+  add_value(usage, "--from", "ID@U,V", "a polygon and a point of it: 0..1 along its first edge and across",
+            [&view](const std::string& text) { view = parse_place(text, view); });
+  add_value(usage, "--pass", "N", "after that pass, 0 is emission alone; the last one unless given",
+            [&view](const std::string& text) {
+              view.pass = static_cast<uint32_t>(parse_count("--pass", text, 0, kPassesFlagMax));
+              view.pass_asked = true;
+            });
+  add_value(usage, "--size", "N", "pixels either way; 720 unless given", [&view](const std::string& text) {
+    view.size = static_cast<uint32_t>(parse_count("--size", text, 1, 1'000'000));
+  });
+  add_switch(usage, "--label", view.label, "write into the picture what it shows");
+  add_exposure_flag(usage, options);
+  add_tone_flag(usage, options);
+  add_out_flag(usage, options);
+  add_solver_flags(usage, options);
+  add_talk_flags(usage, options);
+  usage.checks.push_back([&view] {
+    if (view.polygon.empty())
+      fail_usage("view: say from where: --from ID@U,V, such as --from hall.floor@0.5,0.5");
+  });
+}
+
 int view(const Options& asked, Talk& talk) {
   if (!asked.json) check_standard_output();
+  ViewOptions own = get_own<ViewOptions>(asked);
   Options options = asked;
-  options.size = {options.view.size, options.view.size};
+  options.size = {own.size, own.size};
   std::vector<Diagnostic> warnings;
   Scene scene = load_scene(options.scene, warnings, options.load);
   say_diagnostics(talk, warnings);
   const Plan plan = make_plan(scene, options);
   const uint32_t pass_count = scene.solver.pass_count_max;
-  if (!options.view.pass_asked) options.view.pass = pass_count;
-  if (options.view.pass > pass_count)
+  if (!own.pass_asked) own.pass = pass_count;
+  if (own.pass > pass_count)
     throw UserError(
         "snapshot-beyond-passes",
         fmt::format("--pass {}: the run has {} passes at most; raise passes or ask for an earlier one",
-                    options.view.pass, pass_count));
-  const View from = make_patch_view(find_patch_place(scene, options.view), options.view.size);
+                    own.pass, pass_count));
+  const View from = make_patch_view(find_patch_place(scene, own), own.size);
   check_limits(scene, plan);
   const StopSignals signals;
   const OutputFolder folder = open_output_folder(options.out);
   start_threads(options, talk);
   try {
     double ev = 0;
-    Picture picture = solve(scene, options, from, ev, talk);
+    Picture picture = solve(scene, own.pass, options.look.tone, from, ev, talk);
     draw_ring(picture, from);
-    if (options.view.label)
-      draw_label(picture, fmt::format("{} @ {:g}, {:g} \xc2\xb7 pass {}", options.view.polygon,
-                                      options.view.u, options.view.v, options.view.pass));
-    const std::string path =
-        fmt::format("{}/{}-view-{}@{:g},{:g}-pass-{:02}.png", folder.path, plan.stem, options.view.polygon,
-                    options.view.u, options.view.v, options.view.pass);
+    if (own.label)
+      draw_label(picture,
+                 fmt::format("{} @ {:g}, {:g} \xc2\xb7 pass {}", own.polygon, own.u, own.v, own.pass));
+    const std::string path = fmt::format("{}/{}-view-{}@{:g},{:g}-pass-{:02}.png", folder.path, plan.stem,
+                                         own.polygon, own.u, own.v, own.pass);
     write_file(path, encode_png(picture));
     say_progress_done(talk);
     say(talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", ev));

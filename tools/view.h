@@ -7,6 +7,16 @@
 
 namespace patchlight {
 
+// What a patch sees: from where, and when.
+struct ViewOptions {
+  std::string polygon;
+  double u = 0.5, v = 0.5;
+  bool pass_asked = false;
+  uint32_t pass = 0;    // 0: emission alone; the last one unless asked
+  uint32_t size = 720;  // pixels, either way
+  bool label = false;
+};
+
 // Returns the exit code: 0, or 128 + the signal that stopped the run. Throws UserError; usage for a polygon
 // that the scene does not have and for u,v outside of it.
 int view(const Options& options, Talk& talk);

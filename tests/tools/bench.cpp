@@ -4,6 +4,7 @@
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/measure.h"
+#include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
 #include "tools/command_line.h"
 
@@ -12,6 +13,14 @@
 using namespace patchlight;
 
 namespace {
+
+// The options of words whose first one is a verb.
+Options parse_options(const std::vector<std::string>& words) {
+  const Command command = parse_command_line(words);
+  REQUIRE(command.verb != nullptr);
+  CHECK(command.verb->name == words.front());
+  return command.options;
+}
 
 std::string find_mistake(const std::vector<std::string>& words) {
   try {
@@ -25,23 +34,23 @@ std::string find_mistake(const std::vector<std::string>& words) {
 }  // namespace
 
 TEST_CASE("bench with all of its flags, and without any") {
-  const Options options = parse_command_line(
-      {"bench", "a.yaml", "b.yaml", "--only", "growth,threads", "--json", "b.json", "--repetitions", "3",
-       "--seconds", "0.5", "--threads", "2", "--max-patches", "5000", "--max-memory", "1000000", "--quiet"});
-  CHECK((options.verb == Verb::kBench));
-  CHECK(options.bench.scenes == std::vector<std::string>{"a.yaml", "b.yaml"});
-  CHECK(options.bench.sections == std::vector<std::string>{"growth", "threads"});
-  CHECK(options.bench.json == "b.json");
-  CHECK(options.bench.repetitions == 3);
-  CHECK(options.bench.seconds == 0.5);
-  CHECK(options.bench.threads == 2);
-  CHECK(options.bench.max_patches == 5000);
-  CHECK(options.bench.max_memory == 1000000);
+  const Options options = parse_options({"bench", "a.yaml", "b.yaml", "--only", "growth,threads", "--json",
+                                         "b.json", "--repetitions", "3", "--seconds", "0.5", "--threads", "2",
+                                         "--max-patches", "5000", "--max-memory", "1000000", "--quiet"});
+  const BenchOptions& bench = get_own<BenchOptions>(options);
+  CHECK(bench.scenes == std::vector<std::string>{"a.yaml", "b.yaml"});
+  CHECK(bench.sections == std::vector<std::string>{"growth", "threads"});
+  CHECK(bench.json == "b.json");
+  CHECK(bench.repetitions == 3);
+  CHECK(bench.seconds == 0.5);
+  CHECK(bench.threads == 2);
+  CHECK(bench.max_patches == 5000);
+  CHECK(bench.max_memory == 1000000);
   CHECK(options.quiet);
-  const Options plain = parse_command_line({"bench"});
-  CHECK((plain.verb == Verb::kBench));
-  CHECK(plain.bench.scenes.empty());
-  CHECK(plain.bench.sections == std::vector<std::string>{"kernels", "scenes"});
+  const Options plain = parse_options({"bench"});
+  const BenchOptions& usual = get_own<BenchOptions>(plain);
+  CHECK(usual.scenes.empty());
+  CHECK(usual.sections == std::vector<std::string>{"kernels", "scenes"});
 }
 
 TEST_CASE("mistakes on bench's command line are usage errors") {

@@ -2,12 +2,24 @@
 #include "tools/command_line.h"
 
 #include "dsl/diagnostics.h"
+#include "tools/factors.h"
+#include "tools/flag_values.h"
+#include "tools/render.h"
+#include "tools/view.h"
 
 #include <doctest/doctest.h>
 
 using namespace patchlight;
 
 namespace {
+
+// The options of words whose first one is a verb.
+Options parse_options(const std::vector<std::string>& words) {
+  const Command command = parse_command_line(words);
+  REQUIRE(command.verb != nullptr);
+  CHECK(command.verb->name == words.front());
+  return command.options;
+}
 
 // The slug and message of the UserError that the words give, or an empty string.
 std::string find_mistake(const std::vector<std::string>& words) {
@@ -24,16 +36,15 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("render with all of its flags") {
-  const Options options = parse_command_line({"render",    "-o",          "lit",           "--passes",
-                                              "8",         "--snapshots", "4,1,4",         "--camera",
-                                              "door",      "--size",      "64x48",         "--mesh",
-                                              "--shading", "flat",        "--exposure",    "-3.5",
-                                              "--rays",    "32",          "--threads",     "3",
-                                              "--seed",    "7",           "--max-patches", "5000",
-                                              "--format",  "exr,csv,exr", "--report",      "r.json",
-                                              "--quiet",   "--color",     "never",         "--form-factors",
-                                              "recompute", "--light",     "indirect",      "room.yaml"});
-  CHECK(options.verb == Verb::kRender);
+  const Options options = parse_options({"render",    "-o",          "lit",           "--passes",
+                                         "8",         "--snapshots", "4,1,4",         "--camera",
+                                         "door",      "--size",      "64x48",         "--mesh",
+                                         "--shading", "flat",        "--exposure",    "-3.5",
+                                         "--rays",    "32",          "--threads",     "3",
+                                         "--seed",    "7",           "--max-patches", "5000",
+                                         "--format",  "exr,csv,exr", "--report",      "r.json",
+                                         "--quiet",   "--color",     "never",         "--form-factors",
+                                         "recompute", "--light",     "indirect",      "room.yaml"});
   CHECK(options.scene == "room.yaml");
   CHECK(options.out == "lit");
   CHECK(options.passes == 8u);
@@ -50,7 +61,7 @@ TEST_CASE("render with all of its flags") {
   CHECK(options.seed == 7u);
   CHECK(options.max_patches == 5000u);
   CHECK(options.formats == std::vector<std::string>{"exr", "csv"});
-  CHECK(options.report == "r.json");
+  CHECK(get_own<RenderOptions>(options).report == "r.json");
   CHECK(options.keep_rows == false);
   CHECK(options.quiet);
   CHECK((options.color == ColorChoice::kNever));
@@ -58,20 +69,21 @@ TEST_CASE("render with all of its flags") {
 
 TEST_CASE("factors with all of its flags, and with none") {
   const Options options =
-      parse_command_line({"factors", "room.yaml", "--format", "json", "--error", "1e-4", "--max-memory",
-                          "1000000", "--threads", "2", "--seed", "5", "-D", "w=8", "--quiet"});
-  CHECK(options.verb == Verb::kFactors);
+      parse_options({"factors", "room.yaml", "--format", "json", "--error", "1e-4", "--max-memory", "1000000",
+                     "--threads", "2", "--seed", "5", "-D", "w=8", "--quiet"});
   CHECK(options.scene == "room.yaml");
-  CHECK((options.factors.format == FactorFormat::kJson));
-  CHECK(options.factors.error == 1e-4);
+  const FactorOptions& own = get_own<FactorOptions>(options);
+  CHECK((own.format == FactorFormat::kJson));
+  CHECK(own.error == 1e-4);
   CHECK(options.max_memory == 1000000u);
   CHECK(options.threads == 2u);
   CHECK(options.seed == 5u);
   CHECK(options.load.definitions == std::vector<std::string>{"w=8"});
   CHECK(options.quiet);
-  const Options plain = parse_command_line({"factors", "room.yaml"});
-  CHECK((plain.factors.format == FactorFormat::kCsv));
-  CHECK(plain.factors.error == 1e-3);
+  const Options plain = parse_options({"factors", "room.yaml"});
+  const FactorOptions& usual = get_own<FactorOptions>(plain);
+  CHECK((usual.format == FactorFormat::kCsv));
+  CHECK(usual.error == 1e-3);
   CHECK(find_mistake({"factors"}) != "");
   CHECK(has(find_mistake({"factors", "a.yaml", "--error", "nan"}), "--error"));
   CHECK(has(find_mistake({"factors", "a.yaml", "--format", "yaml"}), "csv"));
@@ -80,7 +92,7 @@ TEST_CASE("factors with all of its flags, and with none") {
 }
 
 TEST_CASE("what is not asked for is left to the scene") {
-  const Options options = parse_command_line({"render", "-"});
+  const Options options = parse_options({"render", "-"});
   CHECK(options.scene == "-");
   CHECK(options.out == "out");
   CHECK(!options.passes);
@@ -93,21 +105,20 @@ TEST_CASE("what is not asked for is left to the scene") {
 
 TEST_CASE("-D and --set may be given often, each with one value") {
   const Options options =
-      parse_command_line({"check", "-D", "w=8", "a.yaml", "-D", "h=-2", "--set", "solver.rays=9"});
+      parse_options({"check", "-D", "w=8", "a.yaml", "-D", "h=-2", "--set", "solver.rays=9"});
   CHECK(options.scene == "a.yaml");
   CHECK(options.load.definitions == std::vector<std::string>{"w=8", "h=-2"});
   CHECK(options.load.overrides == std::vector<std::string>{"solver.rays=9"});
 }
 
 TEST_CASE("words in place of numbers: --snapshots all, --exposure auto") {
-  const Options options = parse_command_line({"render", "a.yaml", "--snapshots=all", "--exposure=auto"});
+  const Options options = parse_options({"render", "a.yaml", "--snapshots=all", "--exposure=auto"});
   CHECK(options.snapshots_all);
   CHECK(options.exposure_auto);
 }
 
 TEST_CASE("the command line may ask for more passes than a scene file may") {
-  const Options options =
-      parse_command_line({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
+  const Options options = parse_options({"check", "a.yaml", "--passes", "20000", "--snapshots", "15000"});
   CHECK(options.passes == 20000u);
   CHECK(options.snapshots == std::vector<uint32_t>{15000});
 }
@@ -188,14 +199,14 @@ TEST_CASE("every limit has a flag of render and of check, with a range") {
       CHECK(has(help, flag));
       CHECK(has(help, usual_text + " unless given"));
       CHECK(row.highest > usual.*row.limit);
-      const Options options = parse_command_line({verb, "a.yaml", flag, std::to_string(row.highest)});
+      const Options options = parse_options({verb, "a.yaml", flag, std::to_string(row.highest)});
       CHECK(options.load.limits.*row.limit == row.highest);
       CHECK(has(find_mistake({verb, "a.yaml", flag, std::to_string(row.highest + 1)}), "is outside 1 to"));
       CHECK(has(find_mistake({verb, "a.yaml", flag, "0"}), "is outside 1 to"));
     }
   }
   const Options options =
-      parse_command_line({"check", "a.yaml", "--max-patches", "3000000", "--max-memory", "5000"});
+      parse_options({"check", "a.yaml", "--max-patches", "3000000", "--max-memory", "5000"});
   CHECK(options.load.limits.starting_patches == 3'000'000);
   CHECK(options.max_memory == 5000u);
 }
@@ -214,9 +225,9 @@ TEST_CASE("help leads with examples") {
                                                 {"bench", "--help"},
                                                 {"schema", "--help"},
                                                 {"completion", "--help"}}) {
-    const Options options = parse_command_line(words);
-    CHECK((options.verb == Verb::kPrinted));
-    CHECK(options.text.find("Examples:") < options.text.find("Usage:"));
+    const Command command = parse_command_line(words);
+    CHECK(command.verb == nullptr);
+    CHECK(command.text.find("Examples:") < command.text.find("Usage:"));
   }
   CHECK(has(parse_command_line({"--version"}).text, "patchlight "));
 }
@@ -240,15 +251,15 @@ TEST_CASE("numbers are read whole") {
 }
 
 TEST_CASE("flags of looks and of pictures of the whole run") {
-  const Options options = parse_command_line({"render", "a.yaml", "--false-color", "residual", "--scale",
-                                              "log", "--storyboard", "--animation", "rounds,passes"});
-  CHECK((parse_command_line({"render", "a.yaml", "--tone", "filmic"}).look.tone == Tone::kFilmic));
+  const Options options = parse_options({"render", "a.yaml", "--false-color", "residual", "--scale", "log",
+                                         "--storyboard", "--animation", "rounds,passes"});
+  CHECK((parse_options({"render", "a.yaml", "--tone", "filmic"}).look.tone == Tone::kFilmic));
   CHECK((options.look.false_color == FalseColor::kResidual));
   CHECK((options.look.scale == ScaleKind::kLog));
   CHECK(options.storyboard);
   CHECK(options.animate_passes);
   CHECK(options.animate_rounds);
-  CHECK(!parse_command_line({"render", "a.yaml", "--animation", "rounds"}).animate_passes);
+  CHECK(!parse_options({"render", "a.yaml", "--animation", "rounds"}).animate_passes);
   CHECK(has(find_mistake({"render", "a.yaml", "--animation", "pases"}), "did you mean 'passes'?"));
   CHECK(has(find_mistake({"render", "a.yaml", "--false-color", "levels"}), "did you mean 'level'?"));
 }
@@ -269,17 +280,16 @@ TEST_CASE("looks that do not go together are told") {
 }
 
 TEST_CASE("view: from where, and after which pass") {
-  const Options options =
-      parse_command_line({"view", "a.yaml", "--from", "lamps[0,1,0]@0.25,1", "--pass", "0", "--size", "300",
-                          "--label", "--tone", "filmic", "-o", "lit"});
-  CHECK(options.verb == Verb::kView);
-  CHECK(options.view.polygon == "lamps[0,1,0]");
-  CHECK(options.view.u == 0.25);
-  CHECK(options.view.v == 1);
-  CHECK(options.view.pass_asked);
-  CHECK(options.view.pass == 0);
-  CHECK(options.view.size == 300);
-  CHECK(options.view.label);
+  const Options options = parse_options({"view", "a.yaml", "--from", "lamps[0,1,0]@0.25,1", "--pass", "0",
+                                         "--size", "300", "--label", "--tone", "filmic", "-o", "lit"});
+  const ViewOptions& view = get_own<ViewOptions>(options);
+  CHECK(view.polygon == "lamps[0,1,0]");
+  CHECK(view.u == 0.25);
+  CHECK(view.v == 1);
+  CHECK(view.pass_asked);
+  CHECK(view.pass == 0);
+  CHECK(view.size == 300);
+  CHECK(view.label);
   CHECK(options.out == "lit");
   CHECK(has(find_mistake({"view", "a.yaml"}), "--from"));
   for (const char* from : {"floor", "floor@0.5", "@0.5,0.5", "floor@0.5,2", "floor@a,b", "floor@0.1,0.2,0.3"})

@@ -16,7 +16,7 @@ namespace {
 // What bash offers for the words of a line, the last one being typed.
 std::string complete_in_bash(const std::string& words) {
   const Folder folder;
-  write_bytes(folder / "completion.bash", parse_command_line({"completion", "bash"}).text);
+  write_bytes(folder / "completion.bash", format_completion(Shell::kBash, list_words()));
   write_bytes(folder / "ask.bash",
               "source '" + folder / "completion.bash" + "'\ncd '" PATCHLIGHT_SOURCE_DIR "'\nCOMP_WORDS=(" +
                   words +
@@ -41,13 +41,14 @@ TEST_CASE("bash completes verbs, flags, choices, lists and files") {
 }
 
 TEST_CASE("both scripts offer every verb and every flag that help lists") {
-  const std::string bash = parse_command_line({"completion", "bash"}).text;
-  const std::string zsh = parse_command_line({"completion", "zsh"}).text;
+  const std::string bash = format_completion(Shell::kBash, list_words());
+  const std::string zsh = format_completion(Shell::kZsh, list_words());
   CHECK(zsh.starts_with("#compdef patchlight\n"));
-  for (const char* verb : {"render", "view", "check", "verify", "show", "bench", "schema", "completion"}) {
+  for (const Verb& row : verbs()) {
+    const std::string verb(row.name);
     CAPTURE(verb);
-    CHECK(bash.find(std::string("    ") + verb + ")\n") != std::string::npos);
-    CHECK(zsh.find(std::string("    ") + verb + ")\n") != std::string::npos);
+    CHECK(bash.find("    " + verb + ")\n") != std::string::npos);
+    CHECK(zsh.find("    " + verb + ")\n") != std::string::npos);
     std::string help = parse_command_line({verb, "--help"}).text;
     help = help.substr(help.find("Options:"));
     size_t flags = 0;
@@ -63,8 +64,9 @@ TEST_CASE("both scripts offer every verb and every flag that help lists") {
 }
 
 TEST_CASE("text of the command line cannot break out of a script's quotes") {
-  const FlagWords flag{{"--x"}, "A:B", "it's [odd]: \\"};
-  const VerbWords verb{"v", "what's: that", "SCENE", {flag}};
+  VerbWords verb{"v", "what's: that", {}};
+  verb.usage.argument.name = "SCENE";
+  verb.usage.flags.push_back({"--x", "A:B", "it's [odd]: \\"});
   const std::string zsh = format_completion(Shell::kZsh, std::vector{verb});
   CHECK(zsh.find("'*--x[it'\\''s \\[odd\\]\\: \\\\]:A\\:B:'") != std::string::npos);
   CHECK(zsh.find("'v:what'\\''s\\: that'") != std::string::npos);

@@ -39,10 +39,10 @@ struct TemporaryFolder {
 Json run_render(const std::string& scene, const BenchOptions& options, uint64_t max_patches) {
   const TemporaryFolder folder;
   Options render_options;
-  render_options.verb = Verb::kRender;
   render_options.scene = scene;
   render_options.out = folder.path;
-  render_options.report = folder.path + "/report.json";
+  const std::string report_path = folder.path + "/report.json";
+  render_options.own = RenderOptions{.report = report_path};
   render_options.threads = static_cast<uint32_t>(options.threads);
   render_options.max_patches = max_patches;
   render_options.quiet = render_options.json = true;
@@ -50,7 +50,7 @@ Json run_render(const std::string& scene, const BenchOptions& options, uint64_t 
     Talk silent = make_talk(render_options);
     const Times begin = read_clocks();
     render(render_options, silent);
-    std::ifstream file(render_options.report);
+    std::ifstream file(report_path);
     Json report = Json::parse(file);
     report["processor_seconds"] = (read_clocks() - begin).processor;
     return report;

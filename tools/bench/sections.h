@@ -2,12 +2,25 @@
 #pragma once
 
 #include "tools/json.h"
-#include "tools/options.h"
 #include "tools/talk.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace patchlight {
+
+struct BenchOptions {
+  std::vector<std::string> scenes;  // paths; empty: those in scenes/
+  std::vector<std::string> sections = {"kernels", "scenes"};
+  std::string json;  // a file for the result; empty: none
+  size_t repetitions = 5;
+  double seconds = 0.2;                 // a repetition of a kernel takes at least so long
+  size_t threads = 0;                   // 0: all cores
+  uint64_t max_patches = ~uint64_t{0};  // no measured mesh has more
+  uint64_t max_memory = ~uint64_t{0};   // bytes: growth stops before
+};
 
 // kernels.cpp: rates of single kernels on the first scene, beside bare Embree and bare memory.
 Json measure_kernels_section(const BenchOptions& options, Talk& talk);
