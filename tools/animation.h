@@ -21,7 +21,4 @@ void add_frame(Animation& animation, const Picture& picture, const std::string& 
 // Bytes that a frame keeps.
 uint64_t count_frame_bytes(uint32_t picture_width, uint32_t picture_height);
 
-// export_gif.cpp: the file's bytes. There must be a frame.
-std::string encode_gif(const Animation& animation);
-
 }  // namespace patchlight

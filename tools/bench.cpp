@@ -6,8 +6,8 @@
 #include "files.h"
 #include "flag_groups.h"
 #include "flag_values.h"
+#include "format.h"
 #include "memory.h"
-#include "plan.h"
 #include "stop.h"
 #include "version.h"
 

@@ -1,6 +1,7 @@
 // The verb check: everything that render does before it takes memory.
 #include "files.h"
 #include "flag_groups.h"
+#include "format.h"
 #include "memory.h"
 #include "plan.h"
 #include "talk.h"

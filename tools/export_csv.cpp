@@ -1,6 +1,7 @@
 // Elements -> S-patches.csv, a row each, with the shortest decimals that read back as the same float.
 #include "engine/cell.h"
 #include "exporters.h"
+#include "format.h"
 
 #include <charconv>
 
@@ -24,12 +25,11 @@ void put_three(std::string& line, const Vector& values) {
   for (int k = 0; k < 3; ++k) put(line, static_cast<float>(values[k]));
 }
 
-// Names of repeated parts hold commas: lamps[0,1,0].
-std::string quote(const std::string& id) { return id.find(',') == std::string::npos ? id : '"' + id + '"'; }
-
 }  // namespace
 
-void export_patches_csv(NewFile& file, const Scene& scene, const Solution& solution) {
+void export_csv(NewFile& file, const FinishedRun& run) {
+  const Scene& scene = run.scene;
+  const Solution& solution = run.solution;
   const PatchTable& elements = solution.elements;
   const FaceTable& faces = scene.faces;
   const double area_scale = scene.units_per_length * scene.units_per_length;
@@ -37,7 +37,7 @@ void export_patches_csv(NewFile& file, const Scene& scene, const Solution& solut
   for (size_t row = 0; row < elements.size(); ++row) {
     const uint32_t face = elements.face[row];
     const DVec3 centre(cell_centre(solution.frames, face, elements.cell[row], elements.level[row]));
-    text += quote(scene.polygons.id[faces.polygon[face]]);
+    text += quote_csv(scene.polygons.id[faces.polygon[face]]);
     text += ',';
     text += std::to_string(elements.level[row]);
     put_three(text, scene.origin + centre * scene.units_per_length);

@@ -1,6 +1,6 @@
 // Frames -> GIF in memory, by giflib: what every browser and every slide program plays. Each frame has a
 // palette of its own.
-#include "animation.h"
+#include "exporters.h"
 
 #include <gif_lib.h>
 

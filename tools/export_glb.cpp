@@ -50,10 +50,12 @@ struct Glb {
 
 uint16_t to_unsigned_short(float value) { return static_cast<uint16_t>(std::lround(value * 65535)); }
 
-Glb make_glb(const Scene& scene, const LitMesh& mesh) {
+Glb make_glb(const FinishedRun& run) {
+  const Scene& scene = run.scene;
+  const LitMesh mesh = make_lit_mesh(scene, run.solution, scene.output.shading);
   const TriangleTable triangles = make_triangles(mesh);
   const std::vector<Vec3> normals = find_polygon_normals(scene);
-  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *scene.output.exposure_ev);
+  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *run.report.exposure_ev);
   const ThingTable things = find_things(scene.polygons);
   const auto to_metres = [&](uint32_t vertex) {
     return to_file_units(scene, mesh.position[vertex]) * scene.metres_per_unit;
@@ -159,11 +161,11 @@ void add_cameras(Json& json, const Scene& scene) {
   }
 }
 
-Json make_json(const Scene& scene, const Glb& glb) {
+Json make_json(const FinishedRun& run, const Glb& glb) {
   Json json;
   json["asset"] = {{"version", "2.0"},
                    {"generator", fmt::format("patchlight {}", version_number())},
-                   {"extras", {{"title", scene.title}, {"exposure", *scene.output.exposure_ev}}}};
+                   {"extras", {{"title", run.scene.title}, {"exposure", *run.report.exposure_ev}}}};
   json["extensionsUsed"] = {"KHR_materials_unlit"};
   json["scene"] = 0;
   json["nodes"] = Json::array();
@@ -172,7 +174,7 @@ Json make_json(const Scene& scene, const Glb& glb) {
                         {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
   json["accessors"] = Json::array();
   add_things(json, glb);
-  add_cameras(json, scene);
+  add_cameras(json, run.scene);
   Json roots = Json::array();
   for (size_t k = 0; k < json["nodes"].size(); ++k) roots.push_back(k);
   json["scenes"] = {{{"nodes", roots}}};
@@ -192,9 +194,9 @@ Json make_json(const Scene& scene, const Glb& glb) {
 
 }  // namespace
 
-void export_glb(NewFile& file, const Scene& scene, const Solution& solution) {
-  const Glb glb = make_glb(scene, make_lit_mesh(scene, solution, scene.output.shading));
-  const Json json = make_json(scene, glb);
+void export_glb(NewFile& file, const FinishedRun& run) {
+  const Glb glb = make_glb(run);
+  const Json json = make_json(run, glb);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.append((4 - text.size() % 4) % 4, ' ');  // chunks end at whole words; so do all columns
   const size_t binary_bytes = json["buffers"][0]["byteLength"];

@@ -151,7 +151,8 @@ std::vector<Block> make_blocks(const Scene& scene, const Solution& solution, con
   return blocks;
 }
 
-Json make_header(const Scene& scene, const PassRecord& record, std::span<const Block> blocks) {
+Json make_header(const FinishedRun& run, std::span<const Block> blocks) {
+  const Scene& scene = run.scene;
   Json header = {{"format", "patchlight-page"},
                  {"version", kPageVersion},
                  {"generator", fmt::format("patchlight {}", version_number())},
@@ -161,10 +162,10 @@ Json make_header(const Scene& scene, const PassRecord& record, std::span<const B
                  {"metres_per_unit", scene.metres_per_unit},
                  {"origin", make_array(scene.origin)},
                  {"units_per_length", scene.units_per_length},
-                 {"exposure", *scene.output.exposure_ev},
+                 {"exposure", *run.report.exposure_ev},
                  {"shading", scene.output.shading == Shading::kFlat ? "flat" : "smooth"},
-                 {"step", record.step},
-                 {"passes", record.pass}};
+                 {"step", run.record.step},
+                 {"passes", run.record.pass}};
   for (const Camera& camera : scene.cameras)
     header["cameras"].push_back({{"name", camera.name},
                                  {"eye", make_array(camera.eye)},
@@ -190,14 +191,14 @@ std::string escape_for_element(const Json& json) {
 
 }  // namespace
 
-void export_html(NewFile& file, const Scene& scene, const Solution& solution, const PassRecord& record) {
+void export_html(NewFile& file, const FinishedRun& run) {
   const std::string_view page = page_html();
   const size_t mark = page.find(kDataMark);
   assert(mark != std::string_view::npos);
-  std::vector<Block> blocks = make_blocks(scene, solution, record);
+  std::vector<Block> blocks = make_blocks(run.scene, run.solution, run.record);
   append_file(file, page.substr(0, mark));
   append_file(file, fmt::format("<script type=\"application/json\" id=\"patchlight\">{}</script>\n",
-                                escape_for_element(make_header(scene, record, blocks))));
+                                escape_for_element(make_header(run, blocks))));
   for (Block& block : blocks) {
     append_file(file, fmt::format("<script type=\"application/octet-stream\" id=\"{}\">",
                                   block.about["name"].get<std::string>()));

@@ -43,12 +43,13 @@ void put_color(std::string& text, Rgb shown) {
 
 }  // namespace
 
-void export_obj(NewFile& file, const Scene& scene, const Solution& solution) {
-  const LitMesh mesh = make_lit_mesh(scene, solution, scene.output.shading);
+void export_obj(NewFile& file, const FinishedRun& run) {
+  const Scene& scene = run.scene;
+  const LitMesh mesh = make_lit_mesh(scene, run.solution, scene.output.shading);
   const TriangleTable triangles = make_triangles(mesh);
-  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *scene.output.exposure_ev);
+  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *run.report.exposure_ev);
   std::string text = fmt::format("# patchlight {}; lengths in {}; exposure EV {:.2f}\n", version_number(),
-                                 scene.units, *scene.output.exposure_ev);
+                                 scene.units, *run.report.exposure_ev);
   const auto flush_if = [&](bool due) {
     if (!due) return;
     append_file(file, text);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kChunkBytes = size_t{1} << 20;
 
-std::string make_header(const Scene& scene, size_t vertex_count, size_t triangle_count) {
+std::string make_header(const FinishedRun& run, size_t vertex_count, size_t triangle_count) {
   return fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
@@ -32,17 +32,18 @@ std::string make_header(const Scene& scene, size_t vertex_count, size_t triangle
       "property list uchar uint vertex_indices\n"
       "property uint patch\n"
       "end_header\n",
-      version_number(), scene.units, *scene.output.exposure_ev, vertex_count, triangle_count);
+      version_number(), run.scene.units, *run.report.exposure_ev, vertex_count, triangle_count);
 }
 
 }  // namespace
 
-void export_ply(NewFile& file, const Scene& scene, const Solution& solution) {
-  const LitMesh mesh = make_lit_mesh(scene, solution, scene.output.shading);
+void export_ply(NewFile& file, const FinishedRun& run) {
+  const Scene& scene = run.scene;
+  const LitMesh mesh = make_lit_mesh(scene, run.solution, scene.output.shading);
   const TriangleTable triangles = make_triangles(mesh);
   const std::vector<Vec3> normals = find_polygon_normals(scene);
-  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *scene.output.exposure_ev);
-  std::string bytes = make_header(scene, mesh.vertex_count(), triangles.size());
+  const std::vector<Rgb> shown = expose_values(mesh.radiosity, *run.report.exposure_ev);
+  std::string bytes = make_header(run, mesh.vertex_count(), triangles.size());
   const auto flush_if = [&](bool due) {
     if (!due) return;
     append_file(file, bytes);

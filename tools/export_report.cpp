@@ -1,6 +1,6 @@
 // A finished run -> S-report.json.
-#include "export_report.h"
-
+#include "exporters.h"
+#include "format.h"
 #include "json.h"
 #include "memory.h"
 #include "version.h"
@@ -138,6 +138,10 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
   const Json form_factors = make_form_factors(report.health, scene.polygons);
   if (!form_factors.is_null()) json["form_factors"] = form_factors;
   return format_json(json);
+}
+
+void export_report(NewFile& file, const FinishedRun& run) {
+  append_file(file, format_report(run.report, run.scene, run.solution));
 }
 
 }  // namespace patchlight

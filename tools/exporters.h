@@ -1,11 +1,12 @@
-// The formats that render writes: one row a format, one file tools/export_<format>.cpp a row.
+// The files that render writes: one row a kind, one file export_NAME.cpp a row.
 #pragma once
 
+#include "animation.h"
 #include "dsl/scene.h"
-#include "engine/solve.h"
 #include "files.h"
 #include "pass_record.h"
 #include "picture.h"
+#include "run_report.h"
 
 #include <cstdint>
 #include <span>
@@ -15,52 +16,48 @@
 
 namespace patchlight {
 
-// What a format's pixels hold.
-enum class PixelKind {
-  kNoPixels,   // not a picture: a file of the whole solution, written once
-  kDisplay,    // linear light, exposed, 0..1 is what a display shows
-  kRadiosity,  // mean radiosity, W/m2, no limit
-  kLayers,     // the same, and channels of its parts and of what is seen
-  kPlots,      // not pictures either: drawings of how the run went (plots.h)
+// A run at its end, for files of the whole of it.
+struct FinishedRun {
+  const Scene& scene;
+  const Solution& solution;
+  const PassRecord& record;  // of passes, where a row asks for it
+  const RunReport& report;
+  std::string_view stem;  // S in the names of files
 };
 
-inline bool has_pixels(PixelKind kind) { return kind != PixelKind::kNoPixels && kind != PixelKind::kPlots; }
-
+// A format may have several rows: then it is several files.
 struct Exporter {
   std::string_view format;  // its name on the command line and the end of its files' names
-  PixelKind pixels;
-  std::string_view name_end = "";  // what its file's name has after S, before the dot; kNoPixels only
-  bool exposed = false;            // kNoPixels: it shows light as the pictures do, by the run's exposure
-  uint32_t bytes_per_patch = 0;    // kNoPixels: what writing it holds at most
-  // One of these three, but for plots: a picture -> the file's bytes; a solution, or the passes to it, into a
-  // file.
+  // One of these three: a picture after each asked step, as the file's bytes; frames, which --animation asks
+  // for; a file of the finished run.
   std::string (*encode_picture)(const Picture&) = nullptr;
-  void (*export_solution)(NewFile&, const Scene&, const Solution&) = nullptr;
-  void (*export_passes)(NewFile&, const Scene&, const Solution&, const PassRecord&) = nullptr;
+  std::string (*encode_animation)(const Animation&) = nullptr;
+  void (*export_run)(NewFile&, const FinishedRun&) = nullptr;
+  // It shows light as a display does, by the run's exposure: such pictures hold 0..1, with lines and legends.
+  // Others hold mean radiosity, W/m2, without limit.
+  bool exposed = false;
+  // Of pictures: they have channels of their parts and of what is seen, too; what writing them holds beside
+  // the picture.
+  bool layers = false;
+  uint32_t bytes_per_pixel = 0;
+  // Of a finished run: what its file's name has after S, before the dot; whether it shows all recorded
+  // passes; whether it is written of every run, whatever --format says (one row is); what writing it holds at
+  // most.
+  std::string_view name_end = "";
+  bool records = false;
+  bool always = false;
+  uint32_t bytes_per_patch = 0;
 };
 
 std::span<const Exporter> exporters();
+// What --format knows, each once.
 std::vector<std::string> exporter_formats();
-// The row of a known format.
+// The first row of a known format.
 const Exporter& find_exporter(std::string_view format);
+// The row that is written of every run.
+const Exporter& find_report();
 
-// export_png.cpp: 8-bit sRGB. Pixels outside 0..1 are clipped.
-std::string encode_png(const Picture& picture);
-// export_exr.cpp: float32 linear R, G, B, and the picture's channels.
-std::string encode_exr(const Picture& picture);
-// export_hdr.cpp: Radiance HDR, about one part in 200 exact.
-std::string encode_hdr(const Picture& picture);
-// export_csv.cpp: a row a patch, positions and areas in the file's units.
-void export_patches_csv(NewFile& file, const Scene& scene, const Solution& solution);
-// These four write the lit mesh (lit_mesh.h), smooth or flat as scene.output.shading says, by
-// scene.output.exposure_ev, which must be set.
-// export_glb.cpp: binary glTF 2.0, in metres, a node a thing.
-void export_glb(NewFile& file, const Scene& scene, const Solution& solution);
-// export_ply.cpp: binary, little endian, in the file's units.
-void export_ply(NewFile& file, const Scene& scene, const Solution& solution);
-// export_obj.cpp: Wavefront OBJ with colours of vertices, in the file's units.
-void export_obj(NewFile& file, const Scene& scene, const Solution& solution);
-// export_html.cpp: a page that shows all recorded passes and needs nothing else.
-void export_html(NewFile& file, const Scene& scene, const Solution& solution, const PassRecord& record);
+// S-patches.csv, S.glb and the like: the name of a finished run's file.
+std::string name_run_file(std::string_view stem, const Exporter& exporter);
 
 }  // namespace patchlight

@@ -17,14 +17,6 @@ const Rgb kLineTint{0.01f, 0.03f, 0.07f};
 const Rgb kNoNumber{1, 0, 1};
 constexpr float kLineKeeps = 0.4f;  // the share of the ground's light that a line lets through
 
-// A film's curve: contrast in the middle, a toe and a shoulder (Narkowicz: ACES Filmic Tone Mapping Curve,
-// 2015, a fit to the curve of the Academy Color Encoding System).
-double bend_filmic(double exposed) {
-  // Beyond it the curve is 1; below 0 it has a pole.
-  const double x = std::clamp(exposed, 0.0, 1e6);
-  return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
-}
-
 // 1 for every value that belongs to a lamp.
 std::vector<Rgb> mark_lamps(const Solution& solution, const FaceTable& faces, bool smooth) {
   const auto is_lamp = [&](uint32_t element) {
@@ -71,11 +63,11 @@ double pick_exposure_ev(std::span<float> brightness) {
   return std::clamp(std::round(ev * 100) / 100, -kEvLimit, kEvLimit);
 }
 
-std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, Tone tone) {
+std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, const Tone* tone) {
   const double gain = std::exp2(ev);
   const auto show = [&](float value) {
     const double exposed = value * gain;
-    return static_cast<float>(std::clamp(tone == Tone::kFilmic ? bend_filmic(exposed) : exposed, 0.0, 1.0));
+    return static_cast<float>(std::clamp(tone != nullptr ? tone->bend(exposed) : exposed, 0.0, 1.0));
   };
   std::vector<Rgb> shown(values.size());
   for_rows(values.size(), kGrain, [&](size_t begin, size_t end) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/film.h"
-#include "look.h"
 #include "srgb.h"
+#include "tone.h"
 
 #include <span>
 #include <vector>
@@ -21,10 +21,10 @@ void collect_brightness(std::vector<float>& brightness, const FilmTable& film, s
 // its colour. 0 where all is black. Reorders its input.
 double pick_exposure_ev(std::span<float> brightness);
 
-// Values as the display will show them: times 2^ev, then through the curve of `tone` to 0..1. This comes
-// before the film's sums, so that the edge of a bright lamp is as smooth as any other. What is not a number
-// is magenta.
-std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, Tone tone = Tone::kClip);
+// Values as the display will show them: times 2^ev, then through the curve of `tone`, if any, and clipped to
+// 0..1. This comes before the film's sums, so that the edge of a bright lamp is as smooth as any other. What
+// is not a number is magenta.
+std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, const Tone* tone = nullptr);
 
 // Puts a colour where the film shows nothing of the scene, in parts of pixels, too.
 void fill_nothing(std::span<Rgb> pixels, const FilmTable& film, Rgb color);

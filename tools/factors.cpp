@@ -3,9 +3,11 @@
 #include "factors.h"
 
 #include "engine/parallel.h"
+#include "engine/solution.h"
 #include "files.h"
 #include "flag_groups.h"
 #include "flag_values.h"
+#include "format.h"
 #include "json.h"
 #include "memory.h"
 #include "plan.h"
@@ -15,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 
 namespace patchlight {
@@ -63,11 +64,6 @@ struct Writer {
     text.clear();
   }
 };
-
-// Names of repeated parts hold commas: lamps[0,1,0].
-std::string quote_csv(const std::string& id) {
-  return id.find(',') == std::string::npos ? id : '"' + id + '"';
-}
 
 double scene_area(const Scene& scene, const FactorTable& table, uint32_t polygon) {
   return table.area[polygon] * scene.units_per_length * scene.units_per_length;
@@ -206,7 +202,7 @@ void describe_factors(Usage& usage, Options& options) {
 }
 
 int factors(const Options& options, Talk& talk) {
-  const auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
   const Scene scene = load_scene(options.scene, warnings, options.load);
@@ -249,8 +245,7 @@ int factors(const Options& options, Talk& talk) {
                     escape_text(scene.polygons.id[summary.error_from]),
                     escape_text(scene.polygons.id[summary.error_to])),
         scene.file);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  say_summary(talk, scene, table, summary, took.count());
+  say_summary(talk, scene, table, summary, watch.read());
   return 0;
 }
 

@@ -4,6 +4,7 @@
 #include "dsl/limits.h"
 #include "engine/solvers.h"
 #include "flag_values.h"
+#include "tone.h"
 
 #include <fmt/format.h>
 
@@ -144,8 +145,11 @@ void add_exposure_flag(Usage& usage, Options& options) {
 }
 
 void add_tone_flag(Usage& usage, Options& options) {
-  add_choice(usage, "--tone", kToneNames, "filmic: soft highlights; clip unless given",
-             [&](size_t choice) { options.look.tone = static_cast<Tone>(choice); });
+  std::string help;
+  for (const Tone& tone : tones()) help += fmt::format("{}: {}; ", tone.name, tone.help);
+  const std::vector<std::string> names = tone_names();
+  add_choice(usage, "--tone", names, help + "clip unless given",
+             [&options, names](size_t choice) { options.look.tone = find_tone(names[choice]); });
 }
 
 void add_look_flags(Usage& usage, Options& options) {

@@ -1,4 +1,5 @@
-// Flags that several verbs have: each function adds a group of them, with what must hold of its flags together.
+// Flags that several verbs have: each function adds a group of them, with what must hold of its flags
+// together.
 #pragma once
 
 #include "options.h"

@@ -18,7 +18,8 @@ uint64_t count_film_bytes(const FilmTable& film) {
 
 // Films show corners of patches, or one value a patch.
 bool is_smooth(const Run& run) {
-  return run.scene.output.shading == Shading::kSmooth && !is_of_patches(run.plan.look.false_color);
+  const FalseColor* color = run.plan.look.false_color;
+  return run.scene.output.shading == Shading::kSmooth && !(color != nullptr && color->of_patches);
 }
 
 void make_films(Run& run, const Tracer& tracer) {
@@ -28,7 +29,7 @@ void make_films(Run& run, const Tracer& tracer) {
     run.films.push_back(make_film(run.solution, run.scene.faces, tracer, make_view(camera), settings));
     run.report.film_rays += run.films.back().ray_count;
     run.report.film_bytes += count_film_bytes(run.films.back());
-    if (!wants(run, PixelKind::kLayers)) continue;
+    if (!run.plan.has_layers()) continue;
     run.centres.push_back(find_centres(run.solution, run.scene.faces, tracer, make_view(camera)));
     const size_t pixel_count = run.centres.back().element.size();
     run.report.film_rays += pixel_count;
@@ -51,13 +52,12 @@ std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& face
 
 // One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass.
 void fix_exposure(Run& run, std::span<const Rgb> forecast) {
-  if (!run.scene.output.exposure_ev) {
-    std::vector<float> brightness;
-    for (const FilmTable& film : run.films)
-      collect_brightness(brightness, film, forecast, run.solution, run.scene.faces, is_smooth(run));
-    run.scene.output.exposure_ev = pick_exposure_ev(brightness);
-  }
   run.report.exposure_ev = run.scene.output.exposure_ev;
+  if (run.report.exposure_ev) return;
+  std::vector<float> brightness;
+  for (const FilmTable& film : run.films)
+    collect_brightness(brightness, film, forecast, run.solution, run.scene.faces, is_smooth(run));
+  run.report.exposure_ev = pick_exposure_ev(brightness);
 }
 
 // The same for false colours, and for what storyboards show as added.
@@ -69,15 +69,11 @@ void fix_scales(Run& run, std::span<const Rgb> forecast) {
     collect_brightness(values, film, forecast, run.solution, run.scene.faces, is_smooth(run));
     for (const Rgb& pixel : expose(film, forecast)) brightest = std::max(brightest, luminance(pixel));
   }
-  run.scale = pick_radiosity_scale(values, brightest, look.scale);
-  run.series.added_scale = make_residual_scale(run.scale, look.scale);
-  if (look.false_color == FalseColor::kResidual) run.scale = run.series.added_scale;
-  if (look.false_color == FalseColor::kLevel) run.scale = make_level_scale(run.solution.elements);
-  if (look.false_color == FalseColor::kReason) run.scale = make_reason_scale();
+  const ColorScale radiosity = pick_radiosity_scale(values, brightest, look.scale);
+  run.series.added_scale = make_added_scale(radiosity, look.scale);
+  if (look.false_color != nullptr)
+    run.scale = look.false_color->make_scale(radiosity, look.scale, run.solution.elements);
 }
-
-// True if pictures show what single passes added.
-bool wants_every_pass(const Run& run) { return run.plan.look.false_color == FalseColor::kResidual; }
 
 }  // namespace
 
@@ -88,12 +84,6 @@ View make_view(const Camera& camera) {
           .fov_degrees = static_cast<float>(camera.fov_degrees),
           .width = camera.width,
           .height = camera.height};
-}
-
-bool wants(const Run& run, PixelKind pixels) {
-  for (const Exporter* exporter : run.plan.exporters)
-    if (exporter->pixels == pixels) return true;
-  return pixels == PixelKind::kDisplay && (run.plan.storyboard || run.plan.animate_shots);
 }
 
 std::vector<Rgb> find_radiosity(const Run& run) {
@@ -107,7 +97,7 @@ void start_pictures(Run& run, const Tracer& tracer) {
     std::vector<Rgb> forecast = vertex_radiosity_forecast(run.solution, run.scene.faces);
     if (!is_smooth(run)) forecast = average_corners(run.solution, run.scene.faces, forecast);
     fix_exposure(run, forecast);
-    if (run.plan.look.false_color != FalseColor::kOff || run.plan.storyboard) fix_scales(run, forecast);
+    if (run.plan.look.false_color != nullptr || run.plan.storyboard) fix_scales(run, forecast);
   }
   run.report.seconds.render += watch.lap();
   keep_light(run);
@@ -117,13 +107,12 @@ void keep_light(Run& run) {
   if (!run.plan.has_pictures()) return;
   LapWatch watch;
   const size_t pass = run.solution.passes.size();
-  if (wants_every_pass(run)) {
+  if (run.plan.shows_passes()) {
     run.light.before = std::move(run.light.now);
     run.light.now = find_radiosity(run);
   }
   if (pass == 0 && run.plan.storyboard) run.series.told = find_radiosity(run);
-  if (pass == 1 && run.plan.goes_by_passes() &&
-      (run.plan.look.light != Light::kAll || wants(run, PixelKind::kLayers)))
+  if (pass == 1 && run.plan.goes_by_passes() && (run.plan.look.light != Light::kAll || run.plan.has_layers()))
     run.light.first = find_radiosity(run);
   run.report.seconds.render += watch.lap();
 }
@@ -140,25 +129,14 @@ void check_values(Run& run, std::span<const Rgb> radiosity) {
 }
 
 std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit) {
-  switch (run.plan.look.false_color) {
-    case FalseColor::kRadiosity:
-      return color_values(run.scale, lit);
-    case FalseColor::kResidual:
-      return color_values(run.scale, find_added(run.light));
-    case FalseColor::kLevel:
-      return color_levels(run.scale, run.solution.elements);
-    case FalseColor::kReason:
-      return color_reasons(run.scale, run.solution.reasons);
-    case FalseColor::kOff:
-      break;
-  }
-  return expose_values(lit, *run.scene.output.exposure_ev, run.plan.look.tone);
+  if (const FalseColor* color = run.plan.look.false_color)
+    return color->find_colors(run.scale, {run.solution, lit, run.light});
+  return expose_values(lit, *run.report.exposure_ev, run.plan.look.tone);
 }
 
-Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb> values, PixelKind pixels) {
-  Picture picture{film.width, film.height, expose(film, values)};
-  if (pixels != PixelKind::kDisplay) return picture;
-  const bool colored = run.plan.look.false_color != FalseColor::kOff;
+Picture show_film(const Run& run, const FilmTable& film, std::span<const Rgb> shown) {
+  Picture picture{film.width, film.height, expose(film, shown)};
+  const bool colored = run.plan.look.false_color != nullptr;
   if (colored) fill_nothing(picture.pixels, film, kNothingColor);
   if (run.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
   if (colored) draw_legend(picture, run.scale);

@@ -10,9 +10,6 @@ inline const Rgb kNothingColor{0.02f};
 
 View make_view(const Camera& camera);
 
-// True if snapshots with such pixels are asked for, as files, panels or frames.
-bool wants(const Run& run, PixelKind pixels);
-
 // Once the mesh is final: the films, and what all pictures of the run have in common, so that a finished one
 // stays right whatever comes later: the exposure and the scale of false colours.
 void start_pictures(Run& run, const Tracer& tracer);
@@ -28,8 +25,8 @@ void check_values(Run& run, std::span<const Rgb> radiosity);
 // show.
 std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit);
 
-// The picture of a film; for displays with lines and a legend where they are asked for.
-Picture take_picture(const Run& run, const FilmTable& film, std::span<const Rgb> values, PixelKind pixels);
+// The picture of a film for displays, with lines and a legend where they are asked for.
+Picture show_film(const Run& run, const FilmTable& film, std::span<const Rgb> shown);
 
 // Adds what layered formats hold beside R, G, B: direct and indirect light, Z (depth in the scene's units,
 // infinite where nothing is seen) and id (the row in S-patches.csv from 1, 0 for nothing), both at pixel

@@ -7,7 +7,10 @@
 #include "engine/film.h"
 #include "engine/forecast.h"
 #include "engine/parallel.h"
+#include "false_colors.h"
+#include "format.h"
 #include "memory.h"
+#include "tone.h"
 
 #include <fmt/format.h>
 
@@ -20,12 +23,16 @@ namespace {
 constexpr uint64_t kFilmBytesPerPixel = 160;
 // Colours, bytes and the compressor's table, of two pictures on their way to a file.
 constexpr uint64_t kPictureBytesPerPixel = 64;
-// Two pictures with their channels, each as columns of its own, as the library's blocks and as its file.
-constexpr uint64_t kLayerBytesPerPixel = 340;
 // What is likely: the film itself; the same and pictures in the making; the program with its libraries.
 constexpr double kFilmBytesLikely = 44, kPictureBytesLikely = 60, kProgramBytesLikely = 12e6;
 constexpr double kPictureSeconds = 0.1e-6;  // a pixel and snapshot: shown and encoded
 constexpr double kShareOfThreads = 0.95;    // of their number
+
+template <class Test>
+bool has_any(const Plan& plan, const Test& test) {
+  return std::any_of(plan.exporters.begin(), plan.exporters.end(),
+                     [&](const Exporter* row) { return test(*row); });
+}
 
 template <class Value, class Asked>
 void override_with(Value& value, const std::optional<Asked>& asked) {
@@ -36,12 +43,8 @@ void override_with(Value& value, const std::optional<Asked>& asked) {
 uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
   // Somewhat more corners than patches, a colour each; a film of a round's patches with its lines.
   constexpr uint64_t kLightBytesPerPatch = 15, kRoundsMost = 16;
-  const bool parts = plan.look.light != Light::kAll ||
-                     std::any_of(plan.exporters.begin(), plan.exporters.end(), [](const Exporter* exporter) {
-                       return exporter->pixels == PixelKind::kLayers;
-                     });
-  const uint64_t kept = (parts ? 1u : 0u) + (plan.storyboard ? 1u : 0u) +
-                        (plan.look.false_color == FalseColor::kResidual ? 2u : 0u);
+  const bool parts = plan.look.light != Light::kAll || plan.has_layers();
+  const uint64_t kept = (parts ? 1u : 0u) + (plan.storyboard ? 1u : 0u) + (plan.shows_passes() ? 2u : 0u);
   uint64_t bytes = kept * kLightBytesPerPatch * scene.solver.patch_count_max;
   const uint64_t frames = (plan.animate_passes ? scene.solver.pass_count_max : 0) +
                           (plan.animate_rounds ? kRoundsMost : 0) +
@@ -57,7 +60,7 @@ void check_look(const Plan& plan) {
   if (plan.goes_by_passes()) return;
   std::string flag;
   if (plan.look.light != Light::kAll) flag = "--light";
-  if (plan.look.false_color == FalseColor::kResidual) flag = "--false-color residual";
+  if (plan.shows_passes()) flag = fmt::format("--false-color {}", plan.look.false_color->name);
   if (plan.animate_passes) flag = "--animation passes";
   if (!flag.empty())
     throw UserError("usage", fmt::format("{}: expected --solver passes, found {}", flag, plan.solver->name));
@@ -111,23 +114,30 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
 
 bool Plan::has_pictures() const {
   return storyboard || animate_passes || animate_shots ||
-         std::any_of(exporters.begin(), exporters.end(),
-                     [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
+         has_any(*this, [](const Exporter& row) { return row.encode_picture != nullptr; });
 }
 
 bool Plan::goes_by_passes() const { return solver->step == "pass"; }
 
 bool Plan::is_exposed() const {
   return storyboard || animate_passes || animate_shots ||
-         std::any_of(exporters.begin(), exporters.end(), [](const Exporter* exporter) {
-           return exporter->pixels == PixelKind::kDisplay || exporter->exposed;
-         });
+         has_any(*this, [](const Exporter& row) { return row.exposed; });
+}
+
+bool Plan::shows_displays() const {
+  return storyboard || animate_shots ||
+         has_any(*this, [](const Exporter& row) { return row.encode_picture != nullptr && row.exposed; });
+}
+
+bool Plan::has_layers() const {
+  return has_any(*this, [](const Exporter& row) { return row.layers; });
 }
 
 bool Plan::records_passes() const {
-  return std::any_of(exporters.begin(), exporters.end(),
-                     [](const Exporter* exporter) { return exporter->export_passes != nullptr; });
+  return has_any(*this, [](const Exporter& row) { return row.records; });
 }
+
+bool Plan::shows_passes() const { return look.false_color != nullptr && look.false_color->of_passes; }
 
 bool makes_films(const Plan& plan, const Scene& scene) {
   return plan.has_pictures() || (plan.is_exposed() && !scene.output.exposure_ev);
@@ -190,7 +200,9 @@ Plan make_plan(Scene& scene, const Options& options) {
   plan.animate_rounds = options.animate_rounds;
   plan.animate_shots = options.animate_shots;
   check_look(plan);
-  for (const std::string& format : options.formats) plan.exporters.push_back(&find_exporter(format));
+  for (const std::string& format : options.formats)
+    for (const Exporter& row : exporters())
+      if (row.format == format) plan.exporters.push_back(&row);
   plan.limits = options.load.limits;
   plan.bytes_max = options.max_memory ? *options.max_memory : find_memory_available();
   plan.seconds_max = options.max_seconds;
@@ -201,35 +213,28 @@ Plan make_plan(Scene& scene, const Options& options) {
   return plan;
 }
 
-std::string name_steps(std::string_view step) {
-  return fmt::format("{}{}", step, step == "pass" ? "es" : "s");
-}
-
 std::string name_camera(const Plan& plan, const Camera& camera) {
   return plan.cameras_named ? plan.stem + "-" + camera.name : plan.stem;
 }
 
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter) {
-  const bool display = exporter.pixels == PixelKind::kDisplay, mesh = plan.mesh && display;
-  // Of levels and reasons there are flat pictures only, and beside them only flat numbers.
-  const bool of_patches = is_of_patches(plan.look.false_color);
-  const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
-  const auto name = [](bool named, const std::vector<std::string>& names, auto choice) {
-    return named ? "-" + names[static_cast<size_t>(choice)] : "";
-  };
   const Look& look = plan.look;
-  const bool colored = display && look.false_color != FalseColor::kOff;
-  const bool lit = !colored || look.false_color == FalseColor::kRadiosity;
+  const bool display = exporter.exposed, mesh = plan.mesh && display;
+  const FalseColor* color = display ? look.false_color : nullptr;
+  // Where colours belong to patches there are flat pictures only, and beside them only flat numbers.
+  const bool of_patches = look.false_color != nullptr && look.false_color->of_patches;
+  const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
+  const bool lit = color == nullptr || color->of_light;
   const int digits = plan.solver->step == "shot" ? 6 : 2;
   const std::string place =
       step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
-  return fmt::format("{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place,
-                     scene.solver.ambient ? "-ambient" : "",
-                     name(lit && look.light != Light::kAll, kLightNames, look.light),
-                     name(colored, kFalseColorNames, look.false_color),
-                     name(display && !colored && look.tone != Tone::kClip, kToneNames, look.tone),
-                     flat ? "-flat" : "", mesh ? "-mesh" : "", exporter.format);
+  return fmt::format(
+      "{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place, scene.solver.ambient ? "-ambient" : "",
+      lit && look.light != Light::kAll ? "-" + kLightNames[static_cast<size_t>(look.light)] : "",
+      color != nullptr ? fmt::format("-{}", color->name) : "",
+      display && color == nullptr && look.tone != nullptr ? fmt::format("-{}", look.tone->name) : "",
+      flat ? "-flat" : "", mesh ? "-mesh" : "", exporter.format);
 }
 
 uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
@@ -248,8 +253,7 @@ uint64_t forecast_run_bytes(const Scene& scene, const Plan& plan) {
     bytes += pixels * kFilmBytesPerPixel;
   }
   bytes += pixels_largest * kPictureBytesPerPixel + forecast_series_bytes(scene, plan);
-  for (const Exporter* exporter : plan.exporters)
-    if (exporter->pixels == PixelKind::kLayers) bytes += pixels_largest * kLayerBytesPerPixel;
+  for (const Exporter* exporter : plan.exporters) bytes += pixels_largest * exporter->bytes_per_pixel;
   return bytes;
 }
 
@@ -308,34 +312,6 @@ void check_limits(const Scene& scene, const Plan& plan) {
                     "max_patches, rays or size",
                     format_seconds(seconds), format_seconds(plan.seconds_max)),
         scene.file);
-}
-
-std::string format_count(uint64_t count) {
-  const double value = static_cast<double>(count);
-  if (count >= 1'000'000'000) return fmt::format("{:.3g} billion", value * 1e-9);
-  if (count >= 1'000'000) return fmt::format("{:.3g} million", value * 1e-6);
-  return fmt::format("{}", count);
-}
-
-std::string format_bytes(uint64_t bytes) {
-  const double value = static_cast<double>(bytes);
-  if (value >= 1e9) return fmt::format("{:.1f} GB", value * 1e-9);
-  return fmt::format("{:.1f} MB", value * 1e-6);
-}
-
-std::string format_seconds(double seconds) {
-  constexpr double kMinute = 60, kHour = 3600, kDay = 86'400;
-  if (seconds >= 2 * kDay) return fmt::format("{:.3g} days", seconds / kDay);
-  if (seconds >= 2 * kHour) return fmt::format("{:.3g} hours", seconds / kHour);
-  if (seconds >= 2 * kMinute) return fmt::format("{:.3g} minutes", seconds / kMinute);
-  return fmt::format("{:.2g} s", seconds);
-}
-
-std::string format_watts(double watts) {
-  if (watts >= 1e6) return fmt::format("{:.3g} MW", watts * 1e-6);
-  if (watts >= 1e3) return fmt::format("{:.3g} kW", watts * 1e-3);
-  if (watts >= 1 || watts <= 0) return fmt::format("{:.3g} W", watts);
-  return fmt::format("{:.3g} mW", watts * 1e3);
 }
 
 }  // namespace patchlight

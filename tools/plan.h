@@ -32,7 +32,10 @@ struct Plan {
   bool has_pictures() const;
   bool goes_by_passes() const;  // a step is a bounce of light
   bool is_exposed() const;      // something that it writes shows light as a display does
+  bool shows_displays() const;  // pictures of its snapshots are among that
+  bool has_layers() const;      // pictures of its snapshots are told in parts
   bool records_passes() const;  // something that it writes shows all passes
+  bool shows_passes() const;    // pictures show what single passes add
 };
 
 // Writes the flags into scene.solver and scene.output (flags are stronger than the file) and picks the rest.
@@ -54,9 +57,6 @@ std::string name_camera(const Plan& plan, const Camera& camera);
 std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera& camera, uint32_t step,
                               const Exporter& exporter);
 
-// More than one step: passes, shots.
-std::string name_steps(std::string_view step);
-
 // True where the run looks through its cameras: for pictures, or to find an exposure by.
 bool makes_films(const Plan& plan, const Scene& scene);
 
@@ -73,11 +73,5 @@ RunForecast forecast_run(const Scene& scene, const Plan& plan);
 // Throws UserError: image-too-large, too-many-patches, memory-limit, time-limit, each with the number found,
 // the limit and its flag.
 void check_limits(const Scene& scene, const Plan& plan);
-
-// 1234567 as "1.23 million", bytes as "84 MB": for people, the same in every locale.
-std::string format_count(uint64_t count);
-std::string format_bytes(uint64_t bytes);
-std::string format_seconds(double seconds);  // "0.8 s", "12 minutes", "3 days"
-std::string format_watts(double watts);      // "1.23 kW"
 
 }  // namespace patchlight

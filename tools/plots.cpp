@@ -1,8 +1,8 @@
 // Reports of passes and rounds -> SVG, written as text: it has few enough parts.
 #include "plots.h"
 
-#include "false_color.h"
-#include "plan.h"
+#include "color_scale.h"
+#include "format.h"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,8 @@
 #include "render.h"
 
 #include "engine/parallel.h"
+#include "exposure.h"
+#include "format.h"
 #include "pictures.h"
 #include "series.h"
 #include "start.h"
@@ -28,15 +30,16 @@ void write_snapshots(Run& run, std::span<const uint32_t> steps) {
   check_values(run, radiosity);
   const std::vector<Rgb> lit = pick_light(run.light, radiosity, run.plan.look.light);
   std::vector<Rgb> shown;
-  if (wants(run, PixelKind::kDisplay)) shown = show_values(run, lit);
+  if (run.plan.shows_displays()) shown = show_values(run, lit);
   take_snapshot(run, radiosity, shown);
   for (size_t k = 0; k < run.films.size(); ++k)
     for (const Exporter* exporter : run.plan.exporters) {
-      if (!has_pixels(exporter->pixels)) continue;
-      const bool display = exporter->pixels == PixelKind::kDisplay;
-      auto picture =
-          std::make_shared<Picture>(take_picture(run, run.films[k], display ? shown : lit, exporter->pixels));
-      if (exporter->pixels == PixelKind::kLayers) add_layers(*picture, run, k, radiosity);
+      if (exporter->encode_picture == nullptr) continue;
+      const FilmTable& film = run.films[k];
+      const auto picture =
+          std::make_shared<Picture>(exporter->exposed ? show_film(run, film, shown)
+                                                      : Picture{film.width, film.height, expose(film, lit)});
+      if (exporter->layers) add_layers(*picture, run, k, radiosity);
       std::vector<std::string> paths;
       for (const uint32_t step : steps)
         paths.push_back(run.folder + "/" +
@@ -51,19 +54,19 @@ void write_snapshots(Run& run, std::span<const uint32_t> steps) {
     }
 }
 
-void write_tables(Run& run) {
+void write_run(const Run& run, const Exporter& exporter, const std::string& path) {
+  NewFile file;
+  open_file(file, path);
+  exporter.export_run(file, {run.scene, run.solution, run.record, run.report, run.plan.stem});
+  commit_file(file);
+}
+
+void write_finished(Run& run) {
   LapWatch watch;
   for (const Exporter* exporter : run.plan.exporters) {
-    if (exporter->pixels != PixelKind::kNoPixels) continue;
-    NewFile file;
-    open_file(file,
-              fmt::format("{}/{}{}.{}", run.folder, run.plan.stem, exporter->name_end, exporter->format));
-    if (exporter->export_passes != nullptr)
-      exporter->export_passes(file, run.scene, run.solution, run.record);
-    else
-      exporter->export_solution(file, run.scene, run.solution);
-    commit_file(file);
-    run.tables.push_back(file.path);
+    if (exporter->export_run == nullptr) continue;
+    run.tables.push_back(fmt::format("{}/{}", run.folder, name_run_file(run.plan.stem, *exporter)));
+    write_run(run, *exporter, run.tables.back());
   }
   run.report.seconds.write += watch.lap();
 }
@@ -102,7 +105,7 @@ void advance_all(Run& run, const Tracer& tracer) {
     keep_light(run);
     take_pass(run);
     if (run.plan.records_passes())
-      record_pass(run.record, run.solution, run.scene.faces, *run.scene.output.exposure_ev, last);
+      record_pass(run.record, run.solution, run.scene.faces, *run.report.exposure_ev, last);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
     while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
@@ -125,21 +128,20 @@ void solve(Run& run, const Tracer& tracer) {
                     run.scene.file);
   }
   write_series(run);
-  write_plots(run);
-  write_tables(run);
+  write_finished(run);
   run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
   run.report.health = find_health(run.scene, run.solution, tracer);
   run.report.objects = find_object_power(run.scene, run.solution);
   run.report.solution_hash = find_solution_hash(run.solution);
 }
 
-void write_report(Run& run, const std::string& path, LapWatch& whole) {
+void write_report(Run& run, const Exporter& exporter, const std::string& path, LapWatch& whole) {
   StageSeconds& seconds = run.report.seconds;
   seconds.trace = run.solution.seconds.trace;
   seconds.split = run.solution.seconds.split;
   seconds.solve = run.solution.seconds.solve;
   seconds.total = whole.lap();
-  write_file(path, format_report(run.report, run.scene, run.solution));
+  write_run(run, exporter, path);
   run.tables.insert(run.tables.begin(), path);
 }
 
@@ -220,8 +222,10 @@ int render(const Options& options, Talk& talk) {
   const StopSignals signals;  // From here on there may be files to clean up.
   const OutputFolder folder = open_output_folder(options.out);
   run.folder = folder.path;
-  const std::string report_path =
-      own.report.empty() ? fmt::format("{}/{}-report.json", run.folder, run.plan.stem) : own.report;
+  const Exporter& report = find_report();
+  const std::string report_path = own.report.empty()
+                                      ? fmt::format("{}/{}", run.folder, name_run_file(run.plan.stem, report))
+                                      : own.report;
   check_file_writable(report_path);
 
   run.report.thread_count = start_threads(options, talk);
@@ -236,7 +240,7 @@ int render(const Options& options, Talk& talk) {
   watch.lap();
   finish_jobs(run.jobs);
   run.report.seconds.write += watch.lap();
-  write_report(run, report_path, whole);
+  write_report(run, report, report_path, whole);
 
   warn_not_converged(run);
   say_diagnostics(talk, describe_leaks(run.scene, run.report.health.leaks));

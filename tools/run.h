@@ -3,11 +3,13 @@
 
 #include "animation.h"
 #include "engine/film.h"
-#include "export_report.h"
-#include "false_color.h"
+#include "exporters.h"
+#include "false_colors.h"
 #include "files.h"
 #include "light_parts.h"
 #include "pass_record.h"
+#include "plan.h"
+#include "run_report.h"
 #include "storyboard.h"
 #include "talk.h"
 

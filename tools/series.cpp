@@ -3,8 +3,8 @@
 
 #include "exporters.h"
 #include "exposure.h"
+#include "format.h"
 #include "pictures.h"
-#include "plots.h"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ void add_step_frames(const Run& run, std::vector<Animation>& animations, double 
                                         format_watts(find_watts(run, run.solution.passes.size() - 1)));
   animations.resize(run.films.size());
   for (size_t k = 0; k < run.films.size(); ++k)
-    add_frame(animations[k], take_picture(run, run.films[k], shown, PixelKind::kDisplay), label, seconds);
+    add_frame(animations[k], show_film(run, run.films[k], shown), label, seconds);
 }
 
 }  // namespace
@@ -110,15 +110,15 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const 
   Series& series = run.series;
   if (run.plan.animate_shots) add_step_frames(run, series.shots, kShotSeconds, shown);
   if (!run.plan.storyboard) return;
-  const std::vector<Rgb> added =
-      color_values(series.added_scale, find_added({.first = {}, .before = series.told, .now = radiosity}));
+  const std::vector<Rgb> added = color_luminances(
+      series.added_scale, find_added({.first = {}, .before = series.told, .now = radiosity}));
   series.storyboards.resize(run.films.size());
   for (size_t k = 0; k < run.films.size(); ++k) {
     const FilmTable& film = run.films[k];
     Picture colored{film.width, film.height, expose(film, added)};
     fill_nothing(colored.pixels, film, kNothingColor);
     Picture lit{film.width, film.height, expose(film, shown)};
-    if (run.plan.look.false_color != FalseColor::kOff) fill_nothing(lit.pixels, film, kNothingColor);
+    if (run.plan.look.false_color != nullptr) fill_nothing(lit.pixels, film, kNothingColor);
     series.storyboards[k].panels.push_back(
         {label_step(run), fmt::format("reflects {}", format_watts(find_watts(run, 0))),
          shrink_panel(run, lit), label_added(run, series.told_pass),
@@ -136,39 +136,25 @@ void write_series(Run& run) {
     storyboard.title = run.scene.title.empty() ? run.plan.stem : run.scene.title;
     if (run.plan.cameras_named) storyboard.title += ": " + run.plan.cameras[k].name;
     storyboard.note = fmt::format("{} patches", run.solution.elements.size());
-    if (run.plan.look.false_color == FalseColor::kOff)
-      storyboard.note += fmt::format("{}EV {:.2f}", kDot, *run.scene.output.exposure_ev);
+    if (run.plan.look.false_color == nullptr)
+      storyboard.note += fmt::format("{}EV {:.2f}", kDot, *run.report.exposure_ev);
     else
       storyboard.scales.push_back(run.scale);
     storyboard.scales.push_back(series.added_scale);
-    send_file(run, k, "storyboard.png",
-              [picture = compose_storyboard(storyboard)] { return encode_png(picture); });
+    send_file(run, k, "storyboard.png", [picture = compose_storyboard(storyboard)] {
+      return find_exporter("png").encode_picture(picture);
+    });
   }
   for (auto& [animations, ending] : {std::pair{&series.passes, "passes.gif"},
                                      {&series.rounds, "rounds.gif"},
                                      {&series.shots, "shots.gif"}})
     for (size_t k = 0; k < animations->size(); ++k) {
       (*animations)[k].seconds.back() = kLastFrameSeconds;
-      send_file(run, k, ending, [animation = std::move((*animations)[k])] { return encode_gif(animation); });
+      send_file(run, k, ending, [animation = std::move((*animations)[k])] {
+        return find_exporter("gif").encode_animation(animation);
+      });
     }
   series = {};
-  run.report.seconds.write += watch.lap();
-}
-
-void write_plots(Run& run) {
-  if (!wants(run, PixelKind::kPlots)) return;
-  LapWatch watch;
-  const PlotText text{.title = run.scene.title.empty() ? run.plan.stem : run.scene.title,
-                      .step = run.plan.solver->step,
-                      .metres_per_length = run.scene.metres_per_length(),
-                      .until = run.scene.solver.until};
-  const std::string stem = run.folder + "/" + run.plan.stem;
-  for (const auto& [path, svg] :
-       {std::pair{stem + "-convergence.svg", plot_convergence(run.solution.passes, text)},
-        std::pair{stem + "-rounds.svg", plot_rounds(run.solution.rounds, text)}}) {
-    write_file(path, svg);
-    run.tables.push_back(path);
-  }
   run.report.seconds.write += watch.lap();
 }
 

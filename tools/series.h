@@ -18,7 +18,4 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const 
 // Sends what was taken to its files.
 void write_series(Run& run);
 
-// S-convergence.svg and S-rounds.svg, where they are asked for.
-void write_plots(Run& run);
-
 }  // namespace patchlight

@@ -2,7 +2,7 @@
 // before.
 #pragma once
 
-#include "false_color.h"
+#include "color_scale.h"
 #include "picture.h"
 
 #include <string>

@@ -3,6 +3,7 @@
 #include "expectations.h"
 #include "files.h"
 #include "flag_groups.h"
+#include "format.h"
 #include "plan.h"
 #include "start.h"
 #include "stop.h"

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "flag_groups.h"
 #include "flag_values.h"
+#include "format.h"
 #include "lettering.h"
 #include "plan.h"
 #include "start.h"
@@ -111,7 +112,8 @@ double pick_exposure(const Scene& scene, const Solution& solution, const FilmTab
 }
 
 // Solves as far as the picture needs; the picture is that of the last pass where the run converges before.
-Picture solve(const Scene& scene, uint32_t pass_last, Tone tone, const View& view, double& ev, Talk& talk) {
+Picture solve(const Scene& scene, uint32_t pass_last, const Tone* tone, const View& view, double& ev,
+              Talk& talk) {
   const Tracer tracer = make_tracer(scene.faces);
   Solution solution = make_solution(scene.faces, tracer, scene.solver);
   while (refine(solution, scene.faces, tracer, scene.solver))
@@ -212,7 +214,7 @@ int view(const Options& asked, Talk& talk) {
                  fmt::format("{} @ {:g}, {:g} \xc2\xb7 pass {}", own.polygon, own.u, own.v, own.pass));
     const std::string path = fmt::format("{}/{}-view-{}@{:g},{:g}-pass-{:02}.png", folder.path, plan.stem,
                                          own.polygon, own.u, own.v, own.pass);
-    write_file(path, encode_png(picture));
+    write_file(path, find_exporter("png").encode_picture(picture));
     say_progress_done(talk);
     say(talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", ev));
     if (!options.json) print_result(path + "\n");

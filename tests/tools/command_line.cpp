@@ -3,8 +3,10 @@
 
 #include "dsl/diagnostics.h"
 #include "tools/factors.h"
+#include "tools/false_colors.h"
 #include "tools/flag_values.h"
 #include "tools/render.h"
+#include "tools/tone.h"
 #include "tools/view.h"
 
 #include <doctest/doctest.h>
@@ -253,8 +255,8 @@ TEST_CASE("numbers are read whole") {
 TEST_CASE("flags of looks and of pictures of the whole run") {
   const Options options = parse_options({"render", "a.yaml", "--false-color", "residual", "--scale", "log",
                                          "--storyboard", "--animation", "rounds,passes"});
-  CHECK((parse_options({"render", "a.yaml", "--tone", "filmic"}).look.tone == Tone::kFilmic));
-  CHECK((options.look.false_color == FalseColor::kResidual));
+  CHECK((parse_options({"render", "a.yaml", "--tone", "filmic"}).look.tone == find_tone("filmic")));
+  CHECK((options.look.false_color == find_false_color("residual")));
   CHECK((options.look.scale == ScaleKind::kLog));
   CHECK(options.storyboard);
   CHECK(options.animate_passes);

@@ -37,7 +37,7 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   const Folder folder;
   NewFile file;
   open_file(file, folder / "p.csv");
-  export_patches_csv(file, scene, solution);
+  find_exporter("csv").export_run(file, {scene, solution, {}, {}, "room"});
   commit_file(file);
   CHECK(read_bytes(folder / "p.csv") ==
         "polygon,level,x,y,z,nx,ny,nz,area,reflectance_r,reflectance_g,reflectance_b,"

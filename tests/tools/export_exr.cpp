@@ -13,7 +13,7 @@ TEST_CASE("an EXR keeps every float, in the order R, G, B, the first row at the 
   Picture picture{3, 2, {}};
   for (int k = 0; k < 6; ++k)
     picture.pixels.emplace_back(0.1f + static_cast<float>(k), 16000.5f * static_cast<float>(k), 1e-7f);
-  const std::string file = encode_exr(picture);
+  const std::string file = find_exporter("exr").encode_picture(picture);
   float* pixels = nullptr;
   int width = 0, height = 0;
   const char* error = nullptr;
@@ -34,7 +34,7 @@ TEST_CASE("an EXR holds the picture's channels, numbers as numbers, in the order
   picture.channels = {{"direct.R", {0.5f, 1.5f, 2.5f, 3.5f}, {}},
                       {"Z", {1, 2, std::numeric_limits<float>::infinity(), 4}, {}},
                       {"id", {}, {1, 16'777'217, 0, 4'000'000'000}}};
-  const std::string file = encode_exr(picture);
+  const std::string file = find_exporter("exr").encode_picture(picture);
   const auto* bytes = reinterpret_cast<const unsigned char*>(file.data());
   EXRVersion version;
   EXRHeader header;

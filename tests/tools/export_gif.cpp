@@ -1,5 +1,5 @@
 // Frames to GIF, and back by another decoder.
-#include "tools/animation.h"
+#include "tools/exporters.h"
 
 #include <doctest/doctest.h>
 
@@ -20,7 +20,7 @@ TEST_CASE("a GIF holds its frames one after another, each for its time, and repe
     fill_box(picture, {10u * static_cast<uint32_t>(frame + 1), 25, 3, 3}, Rgb(1));
     add_frame(animation, picture, "", frame == 2 ? 3 : 0.5);
   }
-  const std::string file = encode_gif(animation);
+  const std::string file = find_exporter("gif").encode_animation(animation);
   CHECK(file.starts_with("GIF89a"));
   CHECK(file.find("NETSCAPE2.0") != std::string::npos);
   CHECK(file.back() == 0x3b);

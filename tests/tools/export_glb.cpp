@@ -62,7 +62,7 @@ TEST_CASE(
   const Folder folder;
   NewFile file;
   open_file(file, folder / "s.glb");
-  export_glb(file, lit.scene, lit.solution);
+  find_exporter("glb").export_run(file, lit.finished());
   commit_file(file);
   const GlbFile glb = read_glb(read_bytes(folder / "s.glb"));
 
@@ -120,7 +120,7 @@ TEST_CASE("a GLB file holds the scene's cameras, which look along -z of their no
   const Folder folder;
   NewFile file;
   open_file(file, folder / "s.glb");
-  export_glb(file, lit.scene, lit.solution);
+  find_exporter("glb").export_run(file, lit.finished());
   commit_file(file);
   const GlbFile glb = read_glb(read_bytes(folder / "s.glb"));
   const Json& node = glb.json["nodes"].back();

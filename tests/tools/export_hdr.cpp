@@ -21,7 +21,7 @@ TEST_CASE("an HDR keeps radiosity within its 8 bits, the first row at the top") 
     picture.pixels[k] = Rgb(value, 0.6f * value, 0.9f * value);
   }
   picture.pixels[17] = Rgb(std::numeric_limits<float>::quiet_NaN(), -1, 1e5f);
-  const std::string file = encode_hdr(picture);
+  const std::string file = find_exporter("hdr").encode_picture(picture);
   int width = 0, height = 0, channels = 0;
   float* values = stbi_loadf_from_memory(reinterpret_cast<const unsigned char*>(file.data()),
                                          static_cast<int>(file.size()), &width, &height, &channels, 3);

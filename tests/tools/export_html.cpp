@@ -50,7 +50,7 @@ PageData make_page(const LitScene& lit) {
   const Folder folder;
   NewFile file;
   open_file(file, folder / "s.html");
-  export_html(file, lit.scene, lit.solution, lit.record);
+  find_exporter("html").export_run(file, lit.finished());
   commit_file(file);
   PageData data;
   data.page = read_bytes(folder / "s.html");

@@ -19,7 +19,7 @@ TEST_CASE("an OBJ file holds an object a thing, a group a polygon, and six numbe
   const Folder folder;
   NewFile file;
   open_file(file, folder / "s.obj");
-  export_obj(file, lit.scene, lit.solution);
+  find_exporter("obj").export_run(file, lit.finished());
   commit_file(file);
 
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kFlat);

@@ -21,7 +21,7 @@ TEST_CASE(
   const Folder folder;
   NewFile file;
   open_file(file, folder / "s.ply");
-  export_ply(file, lit.scene, lit.solution);
+  find_exporter("ply").export_run(file, lit.finished());
   commit_file(file);
   const std::string bytes = read_bytes(folder / "s.ply");
 

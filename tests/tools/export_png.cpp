@@ -28,7 +28,8 @@ std::vector<unsigned char> decode(const std::string& file, int& width, int& heig
 TEST_CASE("a PNG holds sRGB: black is 0, white is 255, linear 0.2140 is half way") {
   Picture picture{16, 8, std::vector<Rgb>(128, Rgb(0, 1, 0.21404f))};
   int width = 0, height = 0;
-  const std::vector<unsigned char> pixels = decode(encode_png(picture), width, height);
+  const std::vector<unsigned char> pixels =
+      decode(find_exporter("png").encode_picture(picture), width, height);
   CHECK(width == 16);
   CHECK(height == 8);
   double mean = 0;
@@ -44,7 +45,8 @@ TEST_CASE("a PNG holds sRGB: black is 0, white is 255, linear 0.2140 is half way
 TEST_CASE("pixels outside 0..1 are clipped, and the first row is the top one") {
   Picture picture{1, 2, {Rgb(-1, 0, 0), Rgb(7, 7, 7)}};
   int width = 0, height = 0;
-  const std::vector<unsigned char> pixels = decode(encode_png(picture), width, height);
+  const std::vector<unsigned char> pixels =
+      decode(find_exporter("png").encode_picture(picture), width, height);
   CHECK(pixels[0] == 0);
   CHECK(pixels[3] == 255);
 }

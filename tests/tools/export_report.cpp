@@ -1,7 +1,6 @@
 // The report as JSON.
-#include "tools/export_report.h"
-
 #include "tools/json.h"
+#include "tools/run_report.h"
 
 #include <doctest/doctest.h>
 

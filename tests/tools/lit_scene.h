@@ -4,7 +4,7 @@
 
 #include "dsl/scene.h"
 #include "tests/scenes.h"
-#include "tools/pass_record.h"
+#include "tools/exporters.h"
 
 #include <utility>
 
@@ -14,6 +14,8 @@ struct LitScene {
   Scene scene;
   Solution solution;
   PassRecord record;
+  RunReport report;
+  FinishedRun finished() const { return {scene, solution, record, report, "lit"}; }
 };
 
 inline void name_polygons(Scene& scene, std::vector<std::string> ids) {
@@ -34,7 +36,7 @@ inline void solve_scene(LitScene& lit, uint32_t pass_count) {
   scene.metres_per_unit = 0.01;
   scene.units_per_length = 250;
   scene.origin = DVec3(1000, 0, -50);
-  scene.output.exposure_ev = -1;
+  lit.report.exposure_ev = -1;
   Camera camera;
   camera.eye = DVec3(0.2, 0.1, 0.3), camera.target = DVec3(0.2, 0.1, 0), camera.up = DVec3(0, 1, 0);
   scene.cameras = {camera};
@@ -45,7 +47,7 @@ inline void solve_scene(LitScene& lit, uint32_t pass_count) {
   freeze(lit.solution, scene.faces, tracer, scene.solver);
   while (lit.solution.passes.size() < pass_count) {
     advance(lit.solution, scene.faces, tracer, scene.solver);
-    record_pass(lit.record, lit.solution, scene.faces, *scene.output.exposure_ev,
+    record_pass(lit.record, lit.solution, scene.faces, *lit.report.exposure_ev,
                 lit.solution.passes.size() == pass_count);
   }
 }

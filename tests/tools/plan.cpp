@@ -2,6 +2,8 @@
 #include "tools/plan.h"
 
 #include "dsl/diagnostics.h"
+#include "tools/false_colors.h"
+#include "tools/tone.h"
 
 #include <doctest/doctest.h>
 
@@ -77,17 +79,17 @@ TEST_CASE("names of pictures say pass, camera, shading and mesh") {
   plan = make_plan(scene, options);
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
         "room-window-pass-02-indirect-flat-mesh.png");
-  options.look.tone = Tone::kFilmic;
+  options.look.tone = find_tone("filmic");
   plan = make_plan(scene, options);
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
         "room-window-pass-02-indirect-filmic-flat-mesh.png");
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, exr) == "room-window-pass-02-indirect-flat.exr");
-  options.look.false_color = FalseColor::kRadiosity;
+  options.look.false_color = find_false_color("radiosity");
   plan = make_plan(scene, options);
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) ==
         "room-window-pass-02-indirect-radiosity-flat-mesh.png");
   // Levels do not depend on light or shading.
-  options.look.false_color = FalseColor::kLevel;
+  options.look.false_color = find_false_color("level");
   plan = make_plan(scene, options);
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, png) == "room-window-pass-02-level-mesh.png");
   CHECK(make_picture_name(plan, scene, plan.cameras[0], 2, exr) == "room-window-pass-02-indirect-flat.exr");
@@ -207,19 +209,6 @@ TEST_CASE("form factors are kept where memory allows, or as the flag says") {
   CHECK(!scene.solver.keep_rows);
 }
 
-TEST_CASE("counts and bytes read the same in every locale") {
-  CHECK(format_count(999999) == "999999");
-  CHECK(format_count(1234567) == "1.23 million");
-  CHECK(format_count(4500000000) == "4.5 billion");
-  CHECK(format_bytes(84300000) == "84.3 MB");
-  CHECK(format_bytes(2500000000) == "2.5 GB");
-  CHECK(format_seconds(0.83) == "0.83 s");
-  CHECK(format_seconds(90) == "90 s");
-  CHECK(format_seconds(180) == "3 minutes");
-  CHECK(format_seconds(9000) == "2.5 hours");
-  CHECK(format_seconds(1e6) == "11.6 days");
-}
-
 TEST_CASE("what is kept for pictures of several passes counts as memory") {
   Scene scene = make_scene();
   Options options;
@@ -237,18 +226,10 @@ TEST_CASE("what is kept for pictures of several passes counts as memory") {
   check_more(scene.solver.patch_count_max * sizeof(Rgb));
   options.look.light = Light::kDirect;
   check_more(scene.solver.patch_count_max * sizeof(Rgb));
-  options.look.false_color = FalseColor::kResidual;
+  options.look.false_color = find_false_color("residual");
   check_more(scene.solver.patch_count_max * sizeof(Rgb));
   options.formats = {"exr"};
   check_more(960 * 720 * 11 * sizeof(float));
-}
-
-TEST_CASE("powers are written with a unit that fits them") {
-  CHECK(format_watts(0) == "0 W");
-  CHECK(format_watts(217.4) == "217 W");
-  CHECK(format_watts(1234) == "1.23 kW");
-  CHECK(format_watts(2.4e6) == "2.4 MW");
-  CHECK(format_watts(0.127) == "127 mW");
 }
 
 TEST_CASE("cameras are looked through for pictures, and for meshes and pages where no exposure is given") {

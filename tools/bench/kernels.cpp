@@ -227,8 +227,9 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                        expose(b.film, b.vertex_values);
                        return pixels;
                      }});
-  kernels.push_back({"encode_png, of raw pixels", "B/s", 1, Clock::kProcessor,
-                     [&, pixels] { return encode_png(b.picture).empty() ? 0.0 : 3 * pixels; }});
+  kernels.push_back({"encode_png, of raw pixels", "B/s", 1, Clock::kProcessor, [&, pixels] {
+                       return find_exporter("png").encode_picture(b.picture).empty() ? 0.0 : 3 * pixels;
+                     }});
   return kernels;
 }
 

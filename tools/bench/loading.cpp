@@ -6,7 +6,7 @@
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
 #include "tools/memory.h"
-#include "tools/plan.h"
+#include "tools/format.h"
 
 #include <fmt/format.h>
 

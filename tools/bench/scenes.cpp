@@ -6,7 +6,6 @@
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
-#include "tools/export_report.h"
 #include "tools/render.h"
 
 #include <fmt/format.h>

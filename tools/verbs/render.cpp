@@ -3,6 +3,7 @@
 
 #include "dsl/diagnostics.h"
 #include "tools/exporters.h"
+#include "tools/false_colors.h"
 #include "tools/flag_groups.h"
 #include "tools/flag_values.h"
 
@@ -46,15 +47,17 @@ std::vector<std::string> parse_formats(std::string_view text) {
 // Flags of looks that do not go together are never ignored.
 void check_look_flags(const Options& options) {
   const Look& look = options.look;
-  const bool colored = look.false_color != FalseColor::kOff,
-             of_light = look.false_color == FalseColor::kRadiosity;
-  if (colored && look.tone != Tone::kClip) fail_usage("--tone: false colours have none");
-  if (colored && !of_light && look.light != Light::kAll)
-    fail_usage(fmt::format("--light: false colours of {} know no parts of the light",
-                           kFalseColorNames[static_cast<size_t>(look.false_color)]));
-  const bool scaled = of_light || look.false_color == FalseColor::kResidual || options.storyboard;
-  if (look.scale != ScaleKind::kAuto && !scaled)
-    fail_usage("--scale: only radiosity and residual in false colours, and storyboards, have one");
+  const FalseColor* color = look.false_color;
+  if (color != nullptr && look.tone != nullptr) fail_usage("--tone: false colours have none");
+  if (color != nullptr && !color->of_light && look.light != Light::kAll)
+    fail_usage(fmt::format("--light: false colours of {} know no parts of the light", color->name));
+  const bool scaled = (color != nullptr && color->has_scale) || options.storyboard;
+  if (look.scale == ScaleKind::kAuto || scaled) return;
+  std::vector<std::string_view> names;
+  for (const FalseColor& row : false_colors())
+    if (row.has_scale) names.push_back(row.name);
+  fail_usage(
+      fmt::format("--scale: only {} in false colours, and storyboards, have one", fmt::join(names, " and ")));
 }
 
 }  // namespace
@@ -71,10 +74,13 @@ void describe_render(Usage& usage, Options& options) {
              "direct: emission and the light of pass 1; indirect: what later passes added; all unless given",
              [&](size_t choice) { options.look.light = static_cast<Light>(choice); });
   add_tone_flag(usage, options);
-  add_choice(usage, "--false-color", kFalseColorNames,
-             "numbers as colours with a legend: radiosity, what the last pass added, how often a patch was "
-             "halved, why it was split",
-             [&](size_t choice) { options.look.false_color = static_cast<FalseColor>(choice); });
+  std::vector<std::string_view> colors;
+  for (const FalseColor& color : false_colors()) colors.push_back(color.help);
+  const std::vector<std::string> names = false_color_names();
+  add_choice(
+      usage, "--false-color", names,
+      fmt::format("numbers as colours with a legend: {}", fmt::join(colors, ", ")),
+      [&options, names](size_t choice) { options.look.false_color = find_false_color(names[choice]); });
   add_switch(usage, "--storyboard", options.storyboard,
              "the snapshots side by side, with labels, and below what was added from one to the next");
   add_value(

@@ -1,5 +1,5 @@
 // Numbers as colours, and their legend.
-#include "tools/false_color.h"
+#include "tools/false_colors.h"
 
 #include <doctest/doctest.h>
 
@@ -78,10 +78,10 @@ TEST_CASE("a value has its place on the scale, and what a pass adds is told on f
   CHECK(find_position(log, 1e9) == 1);
   const ColorScale linear{.low = 2, .high = 4};
   CHECK(find_position(linear, 2.5) == doctest::Approx(0.25));
-  const ColorScale residual = make_residual_scale(log, ScaleKind::kAuto);
+  const ColorScale residual = make_added_scale(log, ScaleKind::kAuto);
   CHECK(residual.high == 10);
   CHECK(residual.low == doctest::Approx(0.001));
-  CHECK(make_residual_scale(log, ScaleKind::kLinear).low == 0);
+  CHECK(make_added_scale(log, ScaleKind::kLinear).low == 0);
 }
 
 TEST_CASE("ticks are round numbers within the scale, written as people do") {
@@ -99,20 +99,23 @@ TEST_CASE("ticks are round numbers within the scale, written as people do") {
 }
 
 TEST_CASE("levels and reasons have a colour each, and what is no number is magenta") {
-  PatchTable elements;
+  Solution solution;
+  PatchTable& elements = solution.elements;
   elements.face = {0, 0, 0};
   elements.level = {0, 2, 3};
-  const ColorScale levels = make_level_scale(elements);
+  solution.reasons = {SplitReason::kStart, SplitReason::kBalance};
+  const FalseColor& level = *find_false_color("level");
+  const ColorScale levels = level.make_scale({}, ScaleKind::kAuto, elements);
   CHECK(levels.classes == std::vector<std::string>{"0", "1", "2", "3"});
-  CHECK(color_levels(levels, elements) ==
+  CHECK(level.find_colors(levels, {solution, {}, {}}) ==
         std::vector<Rgb>{map_viridis(0), map_viridis(2 / 3.0), map_viridis(1)});
-  const ColorScale reasons = make_reason_scale();
-  const std::vector<SplitReason> column = {SplitReason::kStart, SplitReason::kBalance};
-  CHECK(color_reasons(reasons, column) == std::vector<Rgb>{map_viridis(0), map_viridis(1)});
+  const FalseColor& reason = *find_false_color("reason");
+  const ColorScale reasons = reason.make_scale({}, ScaleKind::kAuto, elements);
+  CHECK(reason.find_colors(reasons, {solution, {}, {}}) == std::vector<Rgb>{map_viridis(0), map_viridis(1)});
   const ColorScale scale{.low = 0, .high = 1};
   const std::vector<Rgb> values = {Rgb(std::numeric_limits<float>::quiet_NaN()), Rgb(0.5f)};
-  CHECK(color_values(scale, values)[0] == Rgb(1, 0, 1));
-  CHECK(color_values(scale, values)[1] == map_viridis(0.5));
+  CHECK(color_luminances(scale, values)[0] == Rgb(1, 0, 1));
+  CHECK(color_luminances(scale, values)[1] == map_viridis(0.5));
 }
 
 TEST_CASE(
@@ -133,6 +136,6 @@ TEST_CASE(
   CHECK(nearest_low < 0.01);
   CHECK(nearest_high < 0.01);
   Picture small = make_picture(64, 48, Rgb(0.3f));
-  draw_legend(small, make_reason_scale());
+  draw_legend(small, find_false_color("reason")->make_scale({}, ScaleKind::kAuto, {}));
   CHECK(small.pixels == make_picture(64, 48, Rgb(0.3f)).pixels);
 }

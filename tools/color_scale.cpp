@@ -1,7 +1,6 @@
 // Numbers -> colours of a map, and its legend.
-#include "false_color.h"
+#include "color_scale.h"
 
-#include "engine/parallel.h"
 #include "lettering.h"
 #include "srgb.h"
 
@@ -59,15 +58,6 @@ float find_rank(std::span<float> values, double share) {
       std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
   return values[rank];
-}
-
-template <class Value>
-std::vector<Rgb> color_all(const ColorScale& scale, size_t count, const Value& value) {
-  std::vector<Rgb> colors(count);
-  for_rows(count, 4096, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) colors[k] = find_color(scale, value(k));
-  });
-  return colors;
 }
 
 void draw_classes(Picture& picture, const Box& box, const ColorScale& scale, float size, Rgb color) {
@@ -134,7 +124,7 @@ ColorScale pick_radiosity_scale(std::span<float> values, double brightest, Scale
   return scale;
 }
 
-ColorScale make_residual_scale(const ColorScale& radiosity, ScaleKind kind) {
+ColorScale make_added_scale(const ColorScale& radiosity, ScaleKind kind) {
   ColorScale scale = radiosity;
   scale.title = "added, W/m\xc2\xb2";
   scale.log = kind != ScaleKind::kLinear;
@@ -143,29 +133,8 @@ ColorScale make_residual_scale(const ColorScale& radiosity, ScaleKind kind) {
   return scale;
 }
 
-ColorScale make_level_scale(const PatchTable& elements) {
-  ColorScale scale{.title = "times that a patch's polygon was halved"};
-  const uint8_t most =
-      elements.size() == 0 ? 0 : *std::max_element(elements.level.begin(), elements.level.end());
-  for (uint32_t level = 0; level <= most; ++level) scale.classes.push_back(fmt::format("{}", level));
-  return scale;
-}
-
-ColorScale make_reason_scale() {
-  return {.title = "why patches were split",
-          .classes = {"start", "direct light", "indirect light", "balance"}};
-}
-
-std::vector<Rgb> color_values(const ColorScale& scale, std::span<const Rgb> values) {
-  return color_all(scale, values.size(), [&](size_t k) { return double{luminance(values[k])}; });
-}
-
-std::vector<Rgb> color_levels(const ColorScale& scale, const PatchTable& elements) {
-  return color_all(scale, elements.size(), [&](size_t k) { return double(elements.level[k]); });
-}
-
-std::vector<Rgb> color_reasons(const ColorScale& scale, std::span<const SplitReason> reasons) {
-  return color_all(scale, reasons.size(), [&](size_t k) { return static_cast<double>(reasons[k]); });
+std::vector<Rgb> color_luminances(const ColorScale& scale, std::span<const Rgb> light) {
+  return color_values(scale, light.size(), [&](size_t k) { return double{luminance(light[k])}; });
 }
 
 std::vector<double> find_ticks(const ColorScale& scale) {

@@ -1,7 +1,7 @@
 // Numbers -> colours, and the legend that says which is which.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/parallel.h"
 #include "look.h"
 #include "picture.h"
 
@@ -34,14 +34,19 @@ Rgb find_color(const ColorScale& scale, double value);
 // from it. Reorders its input.
 ColorScale pick_radiosity_scale(std::span<float> values, double brightest, ScaleKind kind);
 // The scale for what passes add: four decades from the top of the radiosity scale downwards, or from 0.
-ColorScale make_residual_scale(const ColorScale& radiosity, ScaleKind kind);
-ColorScale make_level_scale(const PatchTable& elements);
-ColorScale make_reason_scale();
+ColorScale make_added_scale(const ColorScale& radiosity, ScaleKind kind);
 
-// Colours of values: of luminance, of levels, of reasons. What is not a number is magenta.
-std::vector<Rgb> color_values(const ColorScale& scale, std::span<const Rgb> values);
-std::vector<Rgb> color_levels(const ColorScale& scale, const PatchTable& elements);
-std::vector<Rgb> color_reasons(const ColorScale& scale, std::span<const SplitReason> reasons);
+// Colours of `count` values. What is not a number is magenta.
+template <class Value>
+std::vector<Rgb> color_values(const ColorScale& scale, size_t count, const Value& value) {
+  std::vector<Rgb> colors(count);
+  for_rows(count, 4096, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) colors[k] = find_color(scale, value(k));
+  });
+  return colors;
+}
+// Colours of the luminances of light.
+std::vector<Rgb> color_luminances(const ColorScale& scale, std::span<const Rgb> light);
 
 // Numbers along a continuous scale to write beside it, ascending.
 std::vector<double> find_ticks(const ColorScale& scale);

@@ -1,10 +1,9 @@
-// What a run has to tell afterwards, for S-report.json and the summary.
+// What a run has to tell afterwards, for its files and the summary.
 #pragma once
 
 #include "engine/solvers.h"
 #include "health.h"
 #include "object_power.h"
-#include "plan.h"
 
 #include <optional>
 #include <string>
