@@ -2,7 +2,7 @@
 #include "support.h"
 
 #include "tests/folder.h"
-#include "tools/plan.h"
+#include "tools/render/plan.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Heat: the net flows of textbooks (Howell, Menguc, Daun, Siegel: Thermal Radiation Heat Transfer).
 #include "dsl/load.h"
 #include "tests/scenes.h"
-#include "tools/object_power.h"
+#include "tools/export/object_power.h"
 
 #include <doctest/doctest.h>
 

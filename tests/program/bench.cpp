@@ -1,6 +1,6 @@
 // The verb bench on a tiny scene: its keys, and that its figures are numbers; how fast is not asked.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 #include <signal.h>

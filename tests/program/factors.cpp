@@ -1,6 +1,6 @@
 // The verb factors, run as users do.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 

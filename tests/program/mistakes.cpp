@@ -1,6 +1,6 @@
 // What users do wrong, and limits: exit code, slug, place; and nothing written.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // Whole runs: the pictures that flags ask for, and what is in them.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 #include <tinyexr.h>

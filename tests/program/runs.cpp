@@ -1,6 +1,6 @@
 // Whole runs: which files, what is in them, what is said.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SIGINT and SIGTERM while a run goes: finished pictures stay, nothing else does.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 #include <signal.h>

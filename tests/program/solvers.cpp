@@ -1,6 +1,6 @@
 // The flag --solver: which files, what the report tells, what is refused.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // The verbs verify, show, schema and completion, as users call them.
 #include "child.h"
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <doctest/doctest.h>
 #include <signal.h>

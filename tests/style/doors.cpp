@@ -1,6 +1,7 @@
 // The layout as a test: who may include whom, and where each foreign library may be included.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -50,13 +51,13 @@ TEST_CASE("each foreign library has one door") {
       {"^glm/", {"engine/vector.h"}},
       {"^Eigen/", {"engine/linear_system.cpp"}},
       {"^yaml-cpp/", {"dsl/"}},
-      {"^stb_image", {"tools/image_writer.cpp"}},
-      {"^stb_truetype", {"tools/lettering.cpp"}},
-      {"^gif_lib", {"tools/export_gif.cpp"}},
-      {"^tinyexr", {"tools/export_exr.cpp"}},
-      {"^zlib", {"tools/export_html.cpp"}},
-      {"^CLI/", {"tools/command_line.cpp"}},
-      {"^nlohmann/", {"tools/json.h"}},
+      {"^stb_image", {"tools/image/image_writer.cpp"}},
+      {"^stb_truetype", {"tools/image/lettering.cpp"}},
+      {"^gif_lib", {"tools/export/export_gif.cpp"}},
+      {"^tinyexr", {"tools/export/export_exr.cpp"}},
+      {"^zlib", {"tools/export/export_html.cpp"}},
+      {"^CLI/", {"tools/cli/command_line.cpp"}},
+      {"^nlohmann/", {"tools/base/json.h"}},
       {"^benchmark/", {"tools/bench/measure."}},
   };
   const std::vector<Include> includes = find_includes();
@@ -81,6 +82,35 @@ TEST_CASE("dependencies run one way: tools, dsl, engine") {
       CHECK_MESSAGE(!starts_with_any(include.header, {"tools/", "tests/"}), include.file, " includes ",
                     include.header);
     CHECK_MESSAGE(include.header.find("..") == std::string::npos, include.file, " includes ", include.header);
+  }
+}
+
+TEST_CASE("the rooms of tools include downwards only") {
+  struct Room {
+    const char* name;
+    std::vector<std::string> below;  // rooms that it may include
+  };
+  const std::vector<Room> rooms = {
+      {"base", {}},
+      {"image", {"base"}},
+      {"export", {"base", "image"}},
+      {"render", {"base", "image", "export"}},
+      {"bench", {"base", "image", "export", "render"}},
+      {"verbs", {"base", "image", "export", "render", "bench"}},
+      {"cli", {"base", "verbs"}},
+      {"compare", {"base"}},
+  };
+  const auto find_room = [](const std::string& path) {
+    return path.starts_with("tools/") ? path.substr(6, path.find('/', 6) - 6) : "";
+  };
+  for (const Include& include : find_includes()) {
+    const std::string from = find_room(include.file), to = find_room(include.header);
+    if (from.empty()) continue;
+    const auto room = std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return r.name == from; });
+    REQUIRE_MESSAGE(room != rooms.end(), include.file, " stands in no room");
+    if (to.empty() || to == from) continue;
+    CHECK_MESSAGE(std::find(room->below.begin(), room->below.end(), to) != room->below.end(), include.file,
+                  " of the room ", from, " includes ", include.header, " of the room ", to);
   }
 }
 

@@ -2,7 +2,7 @@
 // warmed anything up.
 #pragma once
 
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 // What was measured several times: {"unit", "median", "low", "high", "runs"}, low and high the extremes.
 #pragma once
 
-#include "tools/json.h"
+#include "tools/base/json.h"
 
 #include <string>
 #include <string_view>

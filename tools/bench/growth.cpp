@@ -1,11 +1,11 @@
 // One scene, finer and finer, to times and bytes, and to the power of the number of patches that they follow.
 #include "engine/parallel.h"
+#include "tools/base/format.h"
+#include "tools/base/memory.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
-#include "tools/memory.h"
-#include "tools/format.h"
 
 #include <fmt/format.h>
 

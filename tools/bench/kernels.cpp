@@ -14,7 +14,7 @@
 #include "tools/bench/measure.h"
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
-#include "tools/exporters.h"
+#include "tools/export/exporters.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // Large scenes to the time and memory that loading them takes, beside the YAML parser alone on the same text.
 #include "dsl/bare_pass.h"
 #include "dsl/load.h"
+#include "tools/base/format.h"
+#include "tools/base/memory.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
-#include "tools/memory.h"
-#include "tools/format.h"
 
 #include <fmt/format.h>
 

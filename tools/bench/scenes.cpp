@@ -6,7 +6,7 @@
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
-#include "tools/render.h"
+#include "tools/render/render.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>

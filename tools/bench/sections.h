@@ -1,8 +1,8 @@
 // The sections of the benchmark: each measures into JSON, and turns that JSON into lines to read.
 #pragma once
 
-#include "tools/json.h"
-#include "tools/talk.h"
+#include "tools/base/json.h"
+#include "tools/base/talk.h"
 
 #include <cstddef>
 #include <cstdint>

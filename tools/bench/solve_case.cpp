@@ -2,7 +2,7 @@
 #include "tools/bench/solve_case.h"
 
 #include "dsl/load.h"
-#include "tools/expectations.h"
+#include "tools/render/expectations.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,11 +1,11 @@
 // The flags of the verb render. What it does stands in render.cpp of the folder render.
-#include "tools/render.h"
+#include "tools/render/render.h"
 
 #include "dsl/diagnostics.h"
-#include "tools/exporters.h"
-#include "tools/false_colors.h"
-#include "tools/flag_groups.h"
-#include "tools/flag_values.h"
+#include "tools/base/flag_values.h"
+#include "tools/export/exporters.h"
+#include "tools/image/false_colors.h"
+#include "tools/verbs/flag_groups.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

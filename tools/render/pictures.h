@@ -1,0 +1,36 @@
+// A solution under way -> the pixels of its pictures.
+#pragma once
+
+#include "tools/render/run.h"
+
+namespace patchlight {
+
+// False colours stand on this where nothing is hit.
+inline const Rgb kNothingColor{0.02f};
+
+View make_view(const Camera& camera);
+
+// Once the mesh is final: the films, and what all pictures of the run have in common, so that a finished one
+// stays right whatever comes later: the exposure and the scale of false colours.
+void start_pictures(Run& run, const Tracer& tracer);
+
+// Before pass 1, and after every pass: keeps of its light what later pictures need.
+void keep_light(Run& run);
+
+// Radiosity after the passes so far, at the values of the films, W/m2.
+std::vector<Rgb> find_radiosity(const Run& run);
+// Warns of values that are negative or no numbers: pictures hide the first and show the second in magenta.
+void check_values(Run& run, std::span<const Rgb> radiosity);
+// Values as a display shows them, in the look that is asked for. lit: the part of the light that pictures
+// show.
+std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit);
+
+// The picture of a film for displays, with lines and a legend where they are asked for.
+Picture show_film(const Run& run, const FilmTable& film, std::span<const Rgb> shown);
+
+// Adds what layered formats hold beside R, G, B: direct and indirect light, Z (depth in the scene's units,
+// infinite where nothing is seen) and id (the row in S-patches.csv from 1, 0 for nothing), both at pixel
+// centres.
+void add_layers(Picture& picture, const Run& run, size_t camera, std::span<const Rgb> radiosity);
+
+}  // namespace patchlight
