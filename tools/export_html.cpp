@@ -118,7 +118,7 @@ Block make_polygon_block(const Scene& scene) {
 }
 
 std::vector<Block> make_blocks(const Scene& scene, const Solution& solution, const PassRecord& record) {
-  const PatchTable& elements = solution.elements;
+  const PatchTable& elements = solution.mesh.elements;
   const LitMesh mesh = make_lit_mesh(scene, solution, Shading::kSmooth);
   std::string levels(elements.level.begin(), elements.level.end()), counts;
   for (size_t row = 0; row < elements.size(); ++row)

@@ -22,8 +22,9 @@ struct PassRecord {
 };
 
 // After a pass: keeps it if it is one of the first 16 or the last one; of shots, which are many and small,
-// numbers 1, 2, 4, 8 ... and the last one. EV is what 1 in the record stands for.
-void record_pass(PassRecord& record, const Solution& solution, const FaceTable& faces, double ev, bool last);
+// numbers 1, 2, 4, 8 ... and the last one. EV is what 1 in the record stands for; ambient goes with
+// vertex_radiosity().
+void record_pass(PassRecord& record, const Solution& solution, Rgb ambient, double ev, bool last);
 
 // Three numbers of nine bits that share an exponent of five, as OpenGL packs GL_RGB9_E5 (extension
 // EXT_texture_shared_exponent): red in the lowest bits. Within 2^-10 of the largest of the three; what is

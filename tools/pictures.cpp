@@ -2,6 +2,7 @@
 #include "pictures.h"
 
 #include "exposure.h"
+#include "lit_mesh.h"
 
 #include <fmt/format.h>
 
@@ -21,15 +22,16 @@ bool is_smooth(const Run& run) {
   return run.scene.output.shading == Shading::kSmooth && !is_of_patches(run.plan.look.false_color);
 }
 
-void make_films(Run& run, const Tracer& tracer) {
+void make_films(Run& run) {
   for (const Camera& camera : run.plan.cameras) {
     const FilmSettings settings{
         .smooth = is_smooth(run), .mesh_lines = run.plan.mesh, .seed = run.scene.solver.seed};
-    run.films.push_back(make_film(run.solution, run.scene.faces, tracer, make_view(camera), settings));
+    run.films.push_back(make_film(make_scenery(run.solution), make_view(camera), settings));
     run.report.film_rays += run.films.back().ray_count;
     run.report.film_bytes += count_film_bytes(run.films.back());
     if (!wants(run, PixelKind::kLayers)) continue;
-    run.centres.push_back(find_centres(run.solution, run.scene.faces, tracer, make_view(camera)));
+    run.centres.push_back(
+        find_centres(*run.solution.surfaces, run.solution.mesh.elements, make_view(camera)));
     const size_t pixel_count = run.centres.back().element.size();
     run.report.film_rays += pixel_count;
     run.report.film_bytes += pixel_count * (sizeof(uint32_t) + sizeof(float));
@@ -39,11 +41,11 @@ void make_films(Run& run, const Tracer& tracer) {
 // The mean over each element's corners of what is known at vertices.
 std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& faces,
                                  std::span<const Rgb> vertex_values) {
-  std::vector<Rgb> values(solution.elements.size());
+  std::vector<Rgb> values(solution.mesh.elements.size());
   for (size_t row = 0; row < values.size(); ++row) {
-    const int corner_count = faces.corner_count[solution.elements.face[row]];
+    const int corner_count = faces.corner_count[solution.mesh.elements.face[row]];
     for (int k = 0; k < corner_count; ++k)
-      values[row] += vertex_values[solution.element_vertices.leaf_vertex[row][k]];
+      values[row] += vertex_values[solution.mesh.element_vertices.leaf_vertex[row][k]];
     values[row] /= static_cast<float>(corner_count);
   }
   return values;
@@ -72,7 +74,7 @@ void fix_scales(Run& run, std::span<const Rgb> forecast) {
   run.scale = pick_radiosity_scale(values, brightest, look.scale);
   run.series.added_scale = make_residual_scale(run.scale, look.scale);
   if (look.false_color == FalseColor::kResidual) run.scale = run.series.added_scale;
-  if (look.false_color == FalseColor::kLevel) run.scale = make_level_scale(run.solution.elements);
+  if (look.false_color == FalseColor::kLevel) run.scale = make_level_scale(run.solution.mesh.elements);
   if (look.false_color == FalseColor::kReason) run.scale = make_reason_scale();
 }
 
@@ -97,14 +99,15 @@ bool wants(const Run& run, PixelKind pixels) {
 }
 
 std::vector<Rgb> find_radiosity(const Run& run) {
-  return is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
+  return is_smooth(run) ? vertex_radiosity(run.solution, find_shown_ambient(run.scene, run.solution))
+                        : run.solution.mesh.elements.radiosity;
 }
 
-void start_pictures(Run& run, const Tracer& tracer) {
-  LapWatch watch;
-  if (makes_films(run.plan, run.scene)) make_films(run, tracer);
+void start_pictures(Run& run) {
+  Stopwatch watch;
+  if (makes_films(run.plan, run.scene)) make_films(run);
   if (run.plan.is_exposed()) {
-    std::vector<Rgb> forecast = vertex_radiosity_forecast(run.solution, run.scene.faces);
+    std::vector<Rgb> forecast = vertex_radiosity_forecast(run.solution);
     if (!is_smooth(run)) forecast = average_corners(run.solution, run.scene.faces, forecast);
     fix_exposure(run, forecast);
     if (run.plan.look.false_color != FalseColor::kOff || run.plan.storyboard) fix_scales(run, forecast);
@@ -115,8 +118,8 @@ void start_pictures(Run& run, const Tracer& tracer) {
 
 void keep_light(Run& run) {
   if (!run.plan.has_pictures()) return;
-  LapWatch watch;
-  const size_t pass = run.solution.passes.size();
+  Stopwatch watch;
+  const size_t pass = run.solution.log.passes.size();
   if (wants_every_pass(run)) {
     run.light.before = std::move(run.light.now);
     run.light.now = find_radiosity(run);
@@ -135,7 +138,7 @@ void check_values(Run& run, std::span<const Rgb> radiosity) {
   if (count == 0) return;
   say_warning(run.talk, "bad-radiosity",
               fmt::format("after pass {}, {} of {} values that pictures show are negative or no numbers",
-                          run.solution.passes.size(), count, radiosity.size()),
+                          run.solution.log.passes.size(), count, radiosity.size()),
               run.scene.file);
 }
 
@@ -146,9 +149,9 @@ std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit) {
     case FalseColor::kResidual:
       return color_values(run.scale, find_added(run.light));
     case FalseColor::kLevel:
-      return color_levels(run.scale, run.solution.elements);
+      return color_levels(run.scale, run.solution.mesh.elements);
     case FalseColor::kReason:
-      return color_reasons(run.scale, run.solution.reasons);
+      return color_reasons(run.scale, run.solution.mesh.reasons);
     case FalseColor::kOff:
       break;
   }

@@ -15,7 +15,7 @@ bool wants(const Run& run, PixelKind pixels);
 
 // Once the mesh is final: the films, and what all pictures of the run have in common, so that a finished one
 // stays right whatever comes later: the exposure and the scale of false colours.
-void start_pictures(Run& run, const Tracer& tracer);
+void start_pictures(Run& run);
 
 // Before pass 1, and after every pass: keeps of its light what later pictures need.
 void keep_light(Run& run);

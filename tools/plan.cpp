@@ -7,6 +7,7 @@
 #include "engine/film.h"
 #include "engine/forecast.h"
 #include "engine/parallel.h"
+#include "engine/sizes.h"
 #include "memory.h"
 
 #include <fmt/format.h>
@@ -52,7 +53,7 @@ uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
 
 // Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
 void check_look(const Plan& plan) {
-  if (plan.animate_shots && (plan.solver->step != "shot" || plan.snapshots.front() == kSolutionStep))
+  if (plan.animate_shots && (!plan.solver->chooses_steps || plan.snapshots.front() == kSolutionStep))
     throw UserError("usage", "--animation shots: expected --solver shooting and --shots, such as 1-40");
   if (plan.goes_by_passes()) return;
   std::string flag;
@@ -102,7 +103,7 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
         pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
     return;
   }
-  scene.solver.ambient = options.ambient;
+  scene.output.ambient = options.ambient;
   plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kSolutionStep} : options.shots;
   plan.step_count_max = options.shots.empty() ? kShotsMax : options.shots.back();
 }
@@ -115,7 +116,7 @@ bool Plan::has_pictures() const {
                      [](const Exporter* exporter) { return has_pixels(exporter->pixels); });
 }
 
-bool Plan::goes_by_passes() const { return solver->step == "pass"; }
+bool Plan::goes_by_passes() const { return solver->goes_by_bounces; }
 
 bool Plan::is_exposed() const {
   return storyboard || animate_passes || animate_shots ||
@@ -221,11 +222,11 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
   const Look& look = plan.look;
   const bool colored = display && look.false_color != FalseColor::kOff;
   const bool lit = !colored || look.false_color == FalseColor::kRadiosity;
-  const int digits = plan.solver->step == "shot" ? 6 : 2;
-  const std::string place =
-      step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
+  const std::string place = step == kSolutionStep
+                                ? "solution"
+                                : fmt::format("{}-{:0{}}", plan.solver->step, step, plan.solver->digits);
   return fmt::format("{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place,
-                     scene.solver.ambient ? "-ambient" : "",
+                     scene.output.ambient ? "-ambient" : "",
                      name(lit && look.light != Light::kAll, kLightNames, look.light),
                      name(colored, kFalseColorNames, look.false_color),
                      name(display && !colored && look.tone != Tone::kClip, kToneNames, look.tone),

@@ -3,6 +3,7 @@
 #include "render.h"
 
 #include "engine/parallel.h"
+#include "lit_mesh.h"
 #include "pictures.h"
 #include "series.h"
 #include "start.h"
@@ -23,7 +24,7 @@ constexpr int kExitNotConverged = 6;
 // Sends the pictures of the current state to the files of all `steps`.
 void write_snapshots(Run& run, std::span<const uint32_t> steps) {
   if (steps.empty() || !run.plan.has_pictures()) return;
-  LapWatch watch;
+  Stopwatch watch;
   const std::vector<Rgb> radiosity = find_radiosity(run);
   check_values(run, radiosity);
   const std::vector<Rgb> lit = pick_light(run.light, radiosity, run.plan.look.light);
@@ -52,7 +53,7 @@ void write_snapshots(Run& run, std::span<const uint32_t> steps) {
 }
 
 void write_tables(Run& run) {
-  LapWatch watch;
+  Stopwatch watch;
   for (const Exporter* exporter : run.plan.exporters) {
     if (exporter->pixels != PixelKind::kNoPixels) continue;
     NewFile file;
@@ -68,14 +69,15 @@ void write_tables(Run& run) {
   run.report.seconds.write += watch.lap();
 }
 
-void refine_all(Run& run, const Tracer& tracer) {
+void refine_all(Run& run) {
   const auto tell = [&] {
-    take_round(run, tracer);
-    say_progress(run.talk, fmt::format("refining: {} patches", format_count(run.solution.elements.size())));
+    take_round(run);
+    say_progress(run.talk,
+                 fmt::format("refining: {} patches", format_count(run.solution.mesh.elements.size())));
   };
-  run.solution = make_solution(run.scene.faces, tracer, run.scene.solver);
+  run.solution = make_solution(make_surfaces(run.scene.faces), run.scene.solver);
   tell();
-  while (refine(run.solution, run.scene.faces, tracer, run.scene.solver)) tell();
+  while (refine(run.solution)) tell();
 }
 
 void say_step(Run& run, const PassReport& step) {
@@ -84,25 +86,25 @@ void say_step(Run& run, const PassReport& step) {
     say_progress(run.talk, fmt::format("{} {} of {}", plan.solver->step, step.pass, plan.step_count_max));
   else
     say_progress(run.talk, fmt::format("{} {}, unshot {:.2g} of {:.2g}", plan.solver->step, step.pass,
-                                       sum_channels(step.unshot_power), run.solution.shot_power));
+                                       sum_channels(step.unshot_power), run.solution.shooting->power));
 }
 
-void advance_all(Run& run, const Tracer& tracer) {
-  const SolverSettings& settings = run.scene.solver;
+void advance_all(Run& run) {
   const Solver& solver = *run.plan.solver;
   std::span<const uint32_t> snapshots = run.plan.snapshots;
   run.record.step = solver.step;
   bool last = false;
   while (!last) {
-    const PassReport& step = solver.advance(run.solution, run.scene.faces, tracer, settings);
-    const bool converged = solver.is_converged(run.solution, settings);
+    const PassReport& step = solver.advance(run.solution);
+    const bool converged = solver.is_converged(run.solution);
     last = converged || step.pass == run.plan.step_count_max;
     if (last) run.report.stopped_reason = converged ? "converged" : name_steps(solver.step);
     say_step(run, step);
     keep_light(run);
     take_pass(run);
     if (run.plan.records_passes())
-      record_pass(run.record, run.solution, run.scene.faces, *run.scene.output.exposure_ev, last);
+      record_pass(run.record, run.solution, find_shown_ambient(run.scene, run.solution),
+                  *run.scene.output.exposure_ev, last);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
     while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
@@ -112,12 +114,12 @@ void advance_all(Run& run, const Tracer& tracer) {
 }
 
 // Everything that may be cancelled.
-void solve(Run& run, const Tracer& tracer) {
-  refine_all(run, tracer);
-  freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  start_pictures(run, tracer);
+void solve(Run& run) {
+  refine_all(run);
+  freeze(run.solution);
+  start_pictures(run);
   try {
-    advance_all(run, tracer);
+    advance_all(run);
   } catch (const std::domain_error&) {
     throw UserError("singular-system",
                     "light never dies in this scene, so that the system of equations has no solution: some "
@@ -127,17 +129,17 @@ void solve(Run& run, const Tracer& tracer) {
   write_series(run);
   write_plots(run);
   write_tables(run);
-  run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
-  run.report.health = find_health(run.scene, run.solution, tracer);
+  run.report.power = find_power_ledger(run.solution);
+  run.report.health = find_health(run.scene, run.solution);
   run.report.objects = find_object_power(run.scene, run.solution);
   run.report.solution_hash = find_solution_hash(run.solution);
 }
 
-void write_report(Run& run, const std::string& path, LapWatch& whole) {
+void write_report(Run& run, const std::string& path, Stopwatch& whole) {
   StageSeconds& seconds = run.report.seconds;
-  seconds.trace = run.solution.seconds.trace;
-  seconds.split = run.solution.seconds.split;
-  seconds.solve = run.solution.seconds.solve;
+  seconds.trace = run.solution.log.trace_seconds;
+  seconds.split = run.solution.log.split_seconds;
+  seconds.solve = run.solution.log.solve_seconds;
   seconds.total = whole.lap();
   write_file(path, format_report(run.report, run.scene, run.solution));
   run.tables.insert(run.tables.begin(), path);
@@ -146,13 +148,13 @@ void write_report(Run& run, const std::string& path, LapWatch& whole) {
 // "12 of 16 passes (converged)", "4,711 shots (converged)", "the whole system at once".
 std::string describe_steps(const Run& run) {
   const std::string_view step = run.plan.solver->step;
-  const size_t count = run.solution.passes.size();
+  const size_t count = run.solution.log.passes.size();
   std::string why = run.report.stopped_reason;
   if (why == "signal")
     why = "stopped by " + run.report.stopped_signal;
   else if (why != "converged")
     why = "all that were asked for";
-  if (step == "solution") return count > 0 ? "the whole system at once" : why;
+  if (run.plan.solver->takes_one_step) return count > 0 ? "the whole system at once" : why;
   if (run.plan.snapshots.back() == kSolutionStep) return fmt::format("{} {}s ({})", count, step, why);
   return fmt::format("{} of {} {} ({})", count, run.plan.step_count_max, name_steps(step), why);
 }
@@ -178,7 +180,7 @@ void say_summary(Run& run) {
   const RunReport& report = run.report;
   say(run.talk,
       fmt::format("{}: {}, {} patches, {} rays{}", run.plan.stem, describe_steps(run),
-                  run.solution.elements.size(), format_count(count_rays(report, run.solution)),
+                  run.solution.mesh.elements.size(), format_count(count_rays(report, run.solution)),
                   report.power ? fmt::format(", closure error {:.2g}", report.power->closure_error) : ""));
   if (run.scene.is_heat) say_heat(run);
   const StageSeconds& s = report.seconds;
@@ -191,7 +193,7 @@ void say_summary(Run& run) {
 }
 
 void warn_not_converged(Run& run) {
-  const std::vector<PassReport>& passes = run.solution.passes;
+  const std::vector<PassReport>& passes = run.solution.log.passes;
   const double until = run.scene.solver.until;
   if (run.report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
   say_warning(
@@ -206,7 +208,7 @@ void warn_not_converged(Run& run) {
 }  // namespace
 
 int render(const Options& options, Talk& talk) {
-  LapWatch whole, watch;
+  Stopwatch whole, watch;
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
   Run run(talk);
@@ -216,18 +218,18 @@ int render(const Options& options, Talk& talk) {
   check_limits(run.scene, run.plan);
   run.report.solver = *run.plan.solver;
   run.report.forecast_bytes = forecast_run_bytes(run.scene, run.plan);
-  const StopSignals signals;  // From here on there may be files to clean up.
+  const WorkersScope scope(start_workers(options, talk));
+  run.report.thread_count = current_workers()->thread_count();
+  const StopSignals signals(*current_workers());  // From here on there may be files to clean up.
   const OutputFolder folder = open_output_folder(options.out);
   run.folder = folder.path;
   const std::string report_path =
       options.report.empty() ? fmt::format("{}/{}-report.json", run.folder, run.plan.stem) : options.report;
   check_file_writable(report_path);
 
-  run.report.thread_count = start_threads(options, talk);
-  const Tracer tracer = make_tracer(run.scene.faces);
   run.report.seconds.load = watch.lap();
   try {
-    solve(run, tracer);
+    solve(run);
   } catch (const Cancelled&) {
     run.report.stopped_reason = "signal";
     run.report.stopped_signal = stop_signal() == SIGTERM ? "SIGTERM" : "SIGINT";

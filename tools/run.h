@@ -3,6 +3,7 @@
 
 #include "animation.h"
 #include "engine/film.h"
+#include "engine/stopwatch.h"
 #include "export_report.h"
 #include "false_color.h"
 #include "files.h"
@@ -11,25 +12,11 @@
 #include "storyboard.h"
 #include "talk.h"
 
-#include <chrono>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace patchlight {
-
-class LapWatch {
- public:
-  // Seconds since it was made or last asked.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // What is gathered for pictures of the whole run; a row a camera.
 struct Series {

@@ -19,22 +19,22 @@ constexpr const char* kDot = " \xc2\xb7 ";
 // What all passes after `pass` added, W, as the eye weighs the channels.
 double find_watts(const Run& run, size_t pass) {
   DRgb power(0);
-  for (; pass < run.solution.passes.size(); ++pass) power += run.solution.passes[pass].added_power;
+  for (; pass < run.solution.log.passes.size(); ++pass) power += run.solution.log.passes[pass].added_power;
   const double metres = run.scene.metres_per_length();
   return double{luminance(Rgb(power))} * metres * metres;
 }
 
 std::string label_step(const Run& run) {
   const std::string_view step = run.plan.solver->step;
-  if (step == "solution") return std::string(step);
-  return fmt::format("{} {}{}", step, run.solution.passes.back().pass,
+  if (run.plan.solver->takes_one_step) return std::string(step);
+  return fmt::format("{} {}{}", step, run.solution.log.passes.back().pass,
                      run.report.stopped_reason == "converged" ? " (converged)" : "");
 }
 
 std::string label_added(const Run& run, uint32_t after) {
   const std::string_view step = run.plan.solver->step;
-  const uint32_t last = run.solution.passes.back().pass;
-  if (step == "solution") return "added to emission";
+  const uint32_t last = run.solution.log.passes.back().pass;
+  if (run.plan.solver->takes_one_step) return "added to emission";
   if (last == after + 1) return fmt::format("added by {} {}", step, last);
   return fmt::format("added by {} {} to {}", name_steps(step), after + 1, last);
 }
@@ -60,7 +60,7 @@ void send_file(Run& run, size_t camera, std::string_view ending, Encode encode) 
 void add_step_frames(const Run& run, std::vector<Animation>& animations, double seconds,
                      std::span<const Rgb> shown) {
   const std::string label = fmt::format("{}{}+{}", label_step(run), kDot,
-                                        format_watts(find_watts(run, run.solution.passes.size() - 1)));
+                                        format_watts(find_watts(run, run.solution.log.passes.size() - 1)));
   animations.resize(run.films.size());
   for (size_t k = 0; k < run.films.size(); ++k)
     add_frame(animations[k], take_picture(run, run.films[k], shown, PixelKind::kDisplay), label, seconds);
@@ -68,29 +68,29 @@ void add_step_frames(const Run& run, std::vector<Animation>& animations, double 
 
 }  // namespace
 
-void take_round(Run& run, const Tracer& tracer) {
+void take_round(Run& run) {
   if (!run.plan.animate_rounds) return;
-  LapWatch watch;
+  Stopwatch watch;
   const Solution& solution = run.solution;
   std::vector<FilmTable> films;
   std::vector<float> brightness;
   for (const Camera& camera : run.plan.cameras) {
-    films.push_back(make_film(solution, run.scene.faces, tracer, make_view(camera),
+    films.push_back(make_film(make_scenery(solution), make_view(camera),
                               {.smooth = false, .mesh_lines = true, .seed = run.scene.solver.seed}));
     run.report.film_rays += films.back().ray_count;
-    collect_brightness(brightness, films.back(), solution.elements.radiosity, solution, run.scene.faces,
+    collect_brightness(brightness, films.back(), solution.mesh.elements.radiosity, solution, run.scene.faces,
                        false);
   }
   // The exposure of the run is not known yet; the first round is near to it.
   if (!run.series.round_ev)
     run.series.round_ev = run.scene.output.exposure_ev.value_or(pick_exposure_ev(brightness));
   const std::vector<Rgb> shown =
-      expose_values(solution.elements.radiosity, *run.series.round_ev, run.plan.look.tone);
+      expose_values(solution.mesh.elements.radiosity, *run.series.round_ev, run.plan.look.tone);
   run.series.rounds.resize(films.size());
   for (size_t k = 0; k < films.size(); ++k) {
     Picture picture{films[k].width, films[k].height, expose(films[k], shown)};
     draw_mesh_lines(picture.pixels, films[k].line_cover);
-    const RoundReport& round = solution.rounds.back();
+    const RoundReport& round = solution.log.rounds.back();
     add_frame(run.series.rounds[k], picture,
               fmt::format("round {}{}{} patches", round.round, kDot, round.patch_count), kFrameSeconds);
   }
@@ -99,7 +99,7 @@ void take_round(Run& run, const Tracer& tracer) {
 
 void take_pass(Run& run) {
   if (!run.plan.animate_passes) return;
-  LapWatch watch;
+  Stopwatch watch;
   add_step_frames(run, run.series.passes, kFrameSeconds,
                   show_values(run, pick_light(run.light, find_radiosity(run), run.plan.look.light)));
   run.report.seconds.render += watch.lap();
@@ -125,17 +125,17 @@ void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const 
          fmt::format("+{}", format_watts(find_watts(run, series.told_pass))), shrink_panel(run, colored)});
   }
   series.told = radiosity;
-  series.told_pass = run.solution.passes.back().pass;
+  series.told_pass = run.solution.log.passes.back().pass;
 }
 
 void write_series(Run& run) {
-  LapWatch watch;
+  Stopwatch watch;
   Series& series = run.series;
   for (size_t k = 0; k < series.storyboards.size(); ++k) {
     Storyboard& storyboard = series.storyboards[k];
     storyboard.title = run.scene.title.empty() ? run.plan.stem : run.scene.title;
     if (run.plan.cameras_named) storyboard.title += ": " + run.plan.cameras[k].name;
-    storyboard.note = fmt::format("{} patches", run.solution.elements.size());
+    storyboard.note = fmt::format("{} patches", run.solution.mesh.elements.size());
     if (run.plan.look.false_color == FalseColor::kOff)
       storyboard.note += fmt::format("{}EV {:.2f}", kDot, *run.scene.output.exposure_ev);
     else
@@ -157,15 +157,15 @@ void write_series(Run& run) {
 
 void write_plots(Run& run) {
   if (!wants(run, PixelKind::kPlots)) return;
-  LapWatch watch;
+  Stopwatch watch;
   const PlotText text{.title = run.scene.title.empty() ? run.plan.stem : run.scene.title,
                       .step = run.plan.solver->step,
                       .metres_per_length = run.scene.metres_per_length(),
                       .until = run.scene.solver.until};
   const std::string stem = run.folder + "/" + run.plan.stem;
   for (const auto& [path, svg] :
-       {std::pair{stem + "-convergence.svg", plot_convergence(run.solution.passes, text)},
-        std::pair{stem + "-rounds.svg", plot_rounds(run.solution.rounds, text)}}) {
+       {std::pair{stem + "-convergence.svg", plot_convergence(run.solution.log.passes, text)},
+        std::pair{stem + "-rounds.svg", plot_rounds(run.solution.log.rounds, text)}}) {
     write_file(path, svg);
     run.tables.push_back(path);
   }

@@ -6,7 +6,7 @@
 namespace patchlight {
 
 // After every round of refinement: the mesh on the coarse solution, for S-rounds.gif.
-void take_round(Run& run, const Tracer& tracer);
+void take_round(Run& run);
 
 // After every pass: its picture, for S-passes.gif.
 void take_pass(Run& run);

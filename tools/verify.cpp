@@ -33,20 +33,19 @@ Results solve(const Scene& scene, Talk& talk) {
   Results results;
   results.found.resize(scene.expectations.size());
   results.met.resize(scene.expectations.size());
-  const Tracer tracer = make_tracer(scene.faces);
-  Solution solution = make_solution(scene.faces, tracer, scene.solver);
-  while (refine(solution, scene.faces, tracer, scene.solver))
-    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.elements.size())));
-  freeze(solution, scene.faces, tracer, scene.solver);
+  Solution solution = make_solution(make_surfaces(scene.faces), scene.solver);
+  while (refine(solution))
+    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.mesh.elements.size())));
+  freeze(solution);
   uint32_t pass = 0, pass_last = 0;
   for (const Expectation& expectation : scene.expectations) pass_last = std::max(pass_last, expectation.pass);
-  for (bool last = pass_last == 0;; last = pass >= pass_last || is_converged(solution, scene.solver)) {
+  for (bool last = pass_last == 0;; last = pass >= pass_last || is_converged(solution)) {
     for (size_t k = 0; k < scene.expectations.size(); ++k) {
       const uint32_t due = scene.expectations[k].pass;
       if (due == pass || (last && due > pass)) compare(scene, solution, k, results);
     }
     if (last) return results;
-    pass = advance(solution, scene.faces, tracer, scene.solver).pass;
+    pass = advance(solution).pass;
     say_progress(talk, fmt::format("pass {} of {}", pass, pass_last));
   }
 }
@@ -104,8 +103,8 @@ int verify(const Options& options, Talk& talk) {
   const Plan plan = make_plan(scene, options);
   fit_passes(scene);
   check_limits(scene, plan);
-  const StopSignals signals;
-  start_threads(options, talk);
+  const WorkersScope scope(start_workers(options, talk));
+  const StopSignals signals(*current_workers());
   try {
     const Results results = solve(scene, talk);
     report(scene, results, talk);

@@ -76,26 +76,23 @@ void draw_ring(Picture& picture, const View& view) {
 double pick_exposure(const Scene& scene, const Solution& solution, const FilmTable& film) {
   if (scene.output.exposure_ev) return *scene.output.exposure_ev;
   std::vector<float> brightness;
-  collect_brightness(brightness, film, vertex_radiosity_forecast(solution, scene.faces), solution,
-                     scene.faces, true);
+  collect_brightness(brightness, film, vertex_radiosity_forecast(solution), solution, scene.faces, true);
   return pick_exposure_ev(brightness);
 }
 
 // Solves as far as the picture needs; the picture is that of the last pass where the run converges before.
 Picture solve(const Scene& scene, const Options& options, const View& view, double& ev, Talk& talk) {
-  const Tracer tracer = make_tracer(scene.faces);
-  Solution solution = make_solution(scene.faces, tracer, scene.solver);
-  while (refine(solution, scene.faces, tracer, scene.solver))
-    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.elements.size())));
-  freeze(solution, scene.faces, tracer, scene.solver);
-  const FilmTable film = make_film(solution, scene.faces, tracer, view, {.seed = scene.solver.seed});
+  Solution solution = make_solution(make_surfaces(scene.faces), scene.solver);
+  while (refine(solution))
+    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.mesh.elements.size())));
+  freeze(solution);
+  const FilmTable film = make_film(make_scenery(solution), view, {.seed = scene.solver.seed});
   ev = pick_exposure(scene, solution, film);
-  while (solution.passes.size() < options.view.pass && !is_converged(solution, scene.solver)) {
-    const uint32_t pass = advance(solution, scene.faces, tracer, scene.solver).pass;
+  while (solution.log.passes.size() < options.view.pass && !is_converged(solution)) {
+    const uint32_t pass = advance(solution).pass;
     say_progress(talk, fmt::format("pass {} of {}", pass, options.view.pass));
   }
-  const std::vector<Rgb> shown =
-      expose_values(vertex_radiosity(solution, scene.faces), ev, options.look.tone);
+  const std::vector<Rgb> shown = expose_values(vertex_radiosity(solution), ev, options.look.tone);
   return {film.width, film.height, expose(film, shown)};
 }
 
@@ -145,9 +142,9 @@ int view(const Options& asked, Talk& talk) {
                     options.view.pass, pass_count));
   const View from = make_patch_view(find_patch_place(scene, options.view), options.view.size);
   check_limits(scene, plan);
-  const StopSignals signals;
+  const WorkersScope scope(start_workers(options, talk));
+  const StopSignals signals(*current_workers());
   const OutputFolder folder = open_output_folder(options.out);
-  start_threads(options, talk);
   try {
     double ev = 0;
     Picture picture = solve(scene, options, from, ev, talk);

@@ -132,7 +132,7 @@ TEST_CASE("a page holds the mesh, the numbers of the patches and the light after
   CHECK(data.header["shading"] == "smooth");
 
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kSmooth);
-  const PatchTable& elements = lit.solution.elements;
+  const PatchTable& elements = lit.solution.mesh.elements;
   check_floats(data, "position", mesh.position);
   CHECK(read_words(data, "outline") == mesh.outline);
   CHECK(read_words(data, "polygon-patch") == mesh.element_first);

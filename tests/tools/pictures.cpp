@@ -12,7 +12,7 @@ TEST_CASE("values that are negative or no numbers are counted and told, and all 
   talk.json = true;  // What is said is kept.
   Run run(talk);
   run.scene.file = "room.yaml";
-  run.solution.passes.resize(2);
+  run.solution.log.passes.resize(2);
   const float no_number = std::numeric_limits<float>::quiet_NaN(),
               infinite = std::numeric_limits<float>::infinity();
   check_values(run, std::vector<Rgb>{Rgb(0), Rgb(1, 2, 3), Rgb(1e20f)});
