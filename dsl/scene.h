@@ -36,6 +36,7 @@ struct OutputSettings {
   std::string basename;               // empty: the scene file's name without .yaml
   std::vector<uint32_t> snapshots;    // ascending, no repeats; empty: the default 1, 2, 16
   std::optional<double> exposure_ev;  // none: automatic
+  bool ambient = false;               // an estimate of the light that is unshot is shown, too
   Shading shading = Shading::kSmooth;
 };
 

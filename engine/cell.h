@@ -33,6 +33,14 @@ inline uint32_t cell_ancestor(uint32_t cell, uint32_t level) {
 // Which child of its parent a cell of this level (>= 1) is.
 inline uint32_t cell_child(uint32_t cell, uint32_t level) { return cell >> (32 - 2 * level) & 3; }
 
+// A cell by its name.
+struct CellName {
+  uint32_t face = 0, cell = 0, level = 0;
+};
+inline CellName name_cell(const PatchTable& leaves, size_t row) {
+  return {leaves.face[row], leaves.cell[row], leaves.level[row]};
+}
+
 // A cell's place in the parameters of its face: its own parameters (s, t) are at origin + size * (s, t). size
 // is negative for a triangle's turned cells.
 struct CellFrame {

@@ -2,25 +2,29 @@
 // estimate of visibility.
 #pragma once
 
-#include "quadtree.h"
-#include "tracer.h"
+#include "mesh.h"
+#include "surfaces.h"
 
 #include <span>
 
 namespace patchlight {
 
-// The exposed share of those elements of `rows` whose patch is partly buried, from 16 points each; 1 or 0
-// elsewhere.
-uint64_t find_exposed(PatchTable& elements, std::span<const uint32_t> rows,
-                      std::span<const uint32_t> element_patch, const PatchTable& patches,
-                      const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer,
-                      uint64_t seed);
+// The exposed share of those elements `rows` whose patch is partly buried, from 16 points each; that of the
+// patch elsewhere. Returns the number of points.
+uint64_t find_exposed(Mesh& mesh, std::span<const uint32_t> rows, const Surfaces& surfaces, uint64_t seed);
 
 struct DirectColumns {
   std::span<Rgb> irradiance;  // a row an element, W/m2: mean over its exposed area
   std::span<float>
       error;  // a row an element: standard error of its luminance, W/m2; 0 where no shadow edge lies
   LampViewTable& views;  // in: what is settled; out: what was seen
+};
+
+// Who looks at which lamps.
+struct DirectScene {
+  const Surfaces& surfaces;
+  const PatchTable& elements;
+  const LightListTable& lists;
 };
 
 // Rays for an element and a lamp: `unmixed` while they agree, up to `mixed` where some reach the lamp and
@@ -31,9 +35,8 @@ struct DirectRays {
 
 // Direct light of the elements `rows`; others are not touched. No rays where a lamp is settled. Returns the
 // number of rays.
-uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const PatchTable& elements,
-                     const AimTable& aims, const FaceTable& faces, const FaceFrameTable& frames,
-                     const Tracer& tracer, DirectRays rays, uint64_t seed);
+uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const DirectScene& scene,
+                     DirectRays rays, uint64_t seed);
 
 // Settles lamps for an element that is about to be split: those that it and all its neighbours see whole, or
 // not at all.

@@ -2,9 +2,8 @@
 #include "film.h"
 
 #include "parallel.h"
-#include "rows.h"
+#include "sampling.h"
 #include "seen.h"
-#include "vertices.h"
 
 #include <atomic>
 #include <cassert>
@@ -42,10 +41,10 @@ struct Moments {
 };
 
 // Adds the samples' shares to the corners of the element, or to the element.
-void add_moments(PixelSum& sum, const Solution& s, const Moments& m, float share, bool smooth) {
+void add_moments(PixelSum& sum, const Scenery& s, const Moments& m, float share, bool smooth) {
   if (!smooth) return sum.add(m.element, share * m.count);
-  const auto& corner = s.element_vertices.leaf_vertex[m.element];
-  if (s.frames.triangle[s.elements.face[m.element]]) {
+  const auto& corner = s.mesh.element_vertices.leaf_vertex[m.element];
+  if (s.surfaces.frames.triangle[s.mesh.elements.face[m.element]]) {
     sum.add(corner[0], share * std::max(m.count - m.s - m.t, 0.0f));
     sum.add(corner[1], share * m.s);
     sum.add(corner[2], share * m.t);
@@ -58,15 +57,16 @@ void add_moments(PixelSum& sum, const Solution& s, const Moments& m, float share
 }
 
 // Adds a tile of samples, each of weight `share`. Neighbouring samples mostly show the same element.
-void add_tile(PixelSum& sum, const Solution& s, const Seen& seen, float share, bool smooth) {
+void add_tile(PixelSum& sum, const Scenery& s, const Seen& seen, float share, bool smooth) {
   float across[kPacketSize], along[kPacketSize];
   for (uint32_t first = 0; first < kPacketSize;) {
     const uint32_t element = seen.element[first];
     uint32_t last = first + 1;
     while (last < kPacketSize && seen.element[last] == element) ++last;
     if (element != kNone) {
-      const bool triangle = s.frames.triangle[s.elements.face[element]];
-      const CellFrame cell = make_cell_frame(triangle, s.elements.cell[element], s.elements.level[element]);
+      const bool triangle = s.surfaces.frames.triangle[s.mesh.elements.face[element]];
+      const CellFrame cell =
+          make_cell_frame(triangle, s.mesh.elements.cell[element], s.mesh.elements.level[element]);
       // Rounding may put a point a hair outside its cell: no negative weights.
       for (uint32_t k = first; k < last; ++k) {
         across[k] = std::clamp((seen.u[k] - cell.origin.x) / cell.size, 0.0f, 1.0f);
@@ -115,8 +115,7 @@ std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Lens& lens, 
 
 // How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel
 // on shows another element lie on a line one pixel wide.
-std::vector<float> find_line_cover(const View& view, const Lens& lens, const Solution& s,
-                                   const FaceTable& faces, const Tracer& tracer) {
+std::vector<float> find_line_cover(const View& view, const Prospect& prospect) {
   const size_t columns = size_t{view.width} * kSide, rows = size_t{view.height} * kSide;
   std::vector<uint32_t> shown(columns * rows);
   for_rows(size_t{view.width} * view.height, 256, [&](size_t begin, size_t end) {
@@ -128,7 +127,7 @@ std::vector<float> find_line_cover(const View& view, const Lens& lens, const Sol
       for (uint32_t k = 0; k < kPacketSize; ++k)
         at[k] = Vec2(static_cast<float>(x), static_cast<float>(y)) +
                 (Vec2(static_cast<float>(k % kSide), static_cast<float>(k / kSide)) + 0.5f) / float{kSide};
-      find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
+      find_seen(seen, guess, at, prospect);
       for (uint32_t k = 0; k < kPacketSize; ++k)
         shown[(y * kSide + k / kSide) * columns + x * kSide + k % kSide] = seen.element[k];
     }
@@ -149,28 +148,13 @@ std::vector<float> find_line_cover(const View& view, const Lens& lens, const Sol
   return cover;
 }
 
-// What each element will show, or 0 for those that are not lit: emission and the coarse solution.
-std::vector<float> forecast_elements(const Solution& s, const FaceTable& faces) {
-  std::vector<float> forecast(s.elements.size());
-  for_rows(forecast.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row) {
-      const uint32_t face = s.elements.face[row];
-      forecast[row] = largest(faces.emission[face] +
-                              faces.reflectance[face] * (s.direct[row] + s.coarse[s.element_patch[row]]));
-    }
-  });
-  return forecast;
-}
-
 }  // namespace
 
-FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view,
-                    const FilmSettings& settings) {
-  assert(s.frozen || !settings.smooth);
+FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& settings) {
+  assert(s.mesh.frozen || !settings.smooth);
   assert(view.width > 0 && view.height > 0);
-  const Lens lens = make_lens(view);
-  const std::vector<float> forecast = forecast_elements(s, faces);
-  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(faces, lens, view);
+  const Prospect prospect{make_lens(view), s.surfaces, s.mesh.elements};
+  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(s.surfaces.faces, prospect.lens, view);
   const size_t pixel_count = size_t{view.width} * view.height;
   struct Chunk {
     std::vector<uint32_t> value;
@@ -192,7 +176,7 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
     for (size_t c = begin; c < end; ++c)
       for (size_t pixel = c * kChunk; pixel < std::min((c + 1) * kChunk, pixel_count); ++pixel) {
         const Vec2 corner(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width));
-        const uint64_t key = make_row_key(settings.seed, static_cast<uint32_t>(pixel), 0, 0, 0);
+        const uint64_t key = make_ray_key(settings.seed, static_cast<uint32_t>(pixel), 0, 0, 0);
         // side x side samples, a tile of 4 x 4 at a time.
         const auto take = [&](uint32_t side) {
           float least = std::numeric_limits<float>::max(), most = 0;
@@ -205,19 +189,19 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
                                  static_cast<float>(tile / tiles * 4 + k / 4));
               at[k] = corner + (stratum + make_jitter(key, tile * kPacketSize + k)) * step;
             }
-            rays += find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
+            rays += find_seen(seen, guess, at, prospect);
             add_tile(sum, s, seen, share, settings.smooth);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
-              const float value = seen.element[k] == kNone ? 0 : forecast[seen.element[k]];
+              const float value = seen.element[k] == kNone ? 0 : s.brightness[seen.element[k]];
               least = std::min(least, value), most = std::max(most, value);
             }
           }
           return most - least;
         };
         const float contrast = lamp_pixels[pixel] ? std::numeric_limits<float>::infinity() : take(kSide);
-        if (contrast > kHighContrast * s.mean_radiosity)
+        if (contrast > kHighContrast * s.mean_brightness)
           take(kSideHighContrast);
-        else if (contrast > kContrast * s.mean_radiosity)
+        else if (contrast > kContrast * s.mean_brightness)
           take(kSideContrast);
         film.pixel_first[pixel + 1] = sum.value.size();
         chunks[c].value.insert(chunks[c].value.end(), sum.value.begin(), sum.value.end());
@@ -237,12 +221,13 @@ FilmTable make_film(const Solution& s, const FaceTable& faces, const Tracer& tra
     }
   });
   film.ray_count = ray_count;
-  if (settings.mesh_lines) film.line_cover = find_line_cover(view, lens, s, faces, tracer);
+  if (settings.mesh_lines) film.line_cover = find_line_cover(view, prospect);
   return film;
 }
 
-CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer& tracer, const View& view) {
-  const Lens lens = make_lens(view);
+CentreTable find_centres(const Surfaces& surfaces, const PatchTable& elements, const View& view) {
+  const Prospect prospect{make_lens(view), surfaces, elements};
+  const Lens& lens = prospect.lens;
   const size_t pixel_count = size_t{view.width} * view.height;
   CentreTable centres;
   centres.element.assign(pixel_count, kNone);
@@ -257,7 +242,7 @@ CentreTable find_centres(const Solution& s, const FaceTable& faces, const Tracer
         const size_t pixel = std::min(first + k, last - 1);
         at[k] = Vec2(static_cast<float>(pixel % view.width), static_cast<float>(pixel / view.width)) + 0.5f;
       }
-      find_seen(seen, guess, at, lens, faces, s.frames, s.elements, tracer);
+      find_seen(seen, guess, at, prospect);
       for (size_t k = 0; first + k < last; ++k) {
         if (seen.element[k] == kNone) continue;
         centres.element[first + k] = seen.element[k];

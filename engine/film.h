@@ -3,13 +3,22 @@
 #pragma once
 
 #include "lens.h"
-#include "solve.h"
+#include "mesh.h"
+#include "surfaces.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace patchlight {
+
+// What stands before the camera.
+struct Scenery {
+  const Surfaces& surfaces;
+  const Mesh& mesh;
+  std::vector<float> brightness;  // a row an element, W/m2: about what it will show
+  float mean_brightness = 0;      // W/m2, of reflected light
+};
 
 struct FilmSettings {
   bool smooth = true;       // vertex values, bilinear; false: one value an element
@@ -31,16 +40,14 @@ struct FilmTable {
 // Box mean of at least 16 samples a pixel; 64 or 256 where very bright and dark elements share one, such as
 // the borders of lamps and sun spots. Looks through back sides, except in a hemisphere. Smooth films need the
 // final mesh; others may be made after any round, for the values that elements have then.
-FilmTable make_film(const Solution& solution, const FaceTable& faces, const Tracer& tracer, const View& view,
-                    const FilmSettings& settings);
+FilmTable make_film(const Scenery& scenery, const View& view, const FilmSettings& settings);
 
 // What a ray through the centre of each pixel meets; looks through back sides. A row a pixel.
 struct CentreTable {
   std::vector<uint32_t> element;  // kNone: nothing
   std::vector<float> depth;       // lengths along the direction of view; infinite where there is nothing
 };
-CentreTable find_centres(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
-                         const View& view);
+CentreTable find_centres(const Surfaces& surfaces, const PatchTable& elements, const View& view);
 
 // One colour a pixel: the weighted sums of `values` (vertices or elements, as the film was made).
 std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values);

@@ -3,9 +3,9 @@
 // 100,820 faces of furniture, on one core of an AMD EPYC.
 #include "forecast.h"
 
+#include "cell_rays.h"
 #include "polygon_factors.h"
-#include "rows.h"
-#include "solve.h"
+#include "sizes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, 
   const auto face_count = static_cast<double>(faces.size());
   const auto start = static_cast<double>(starting_patches);
   const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
-  const double rays = make_row_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
+  const double rays = make_ray_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
   const double row_ray = kRowRay + kRowRayOfDepth * depth;
   const Counts counts = count_faces(faces);
   Forecast forecast;
@@ -124,6 +124,19 @@ double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& s
 
 double forecast_film_seconds(const FaceTable& faces, double pixels) {
   return 1e-6 * pixels * (kPixel + kPixelOfDepth * cube_of_depth(faces));
+}
+
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
+  // Bytes a row, from tables.h; the largest moment is a split, when the rows of the patches or, later, the
+  // elements exist twice, or the making of the shared corners.
+  constexpr uint64_t kFace = 700, kElement = 190, kPatch = 200;
+  const uint64_t elements = std::max(starting_patches, settings.patch_count_max);
+  const uint64_t patches = count_transport_patches(faces, settings);
+  const uint64_t row_bytes =
+      settings.keep_rows ? 8 * uint64_t{make_ray_grid(count_row_rays(settings)).ray_count()} : 0;
+  const uint64_t rows = row_bytes * patches;
+  return kFace * faces.size() + kPatch * patches +
+         std::max(2 * rows + kElement * std::max(starting_patches, patches), rows + kElement * elements);
 }
 
 }  // namespace patchlight

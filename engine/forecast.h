@@ -27,6 +27,9 @@ double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& set
 double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
                                  uint64_t starting_patches);
 
+// Bytes that a solve with these settings will hold at its peak, an upper estimate.
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
+
 // Of one picture's film.
 double forecast_film_seconds(const FaceTable& faces, double pixels);
 

@@ -1,7 +1,7 @@
 // What was sent to what is received.
 #include "gather.h"
 
-#include "aims.h"
+#include "light_lists.h"
 #include "parallel.h"
 #include "quadtree.h"
 
@@ -91,32 +91,32 @@ struct Place {
 };
 
 float find_radius(uint32_t row, const Rows& rows) {
-  const ReceiverTable& receivers = rows.receivers;
+  const ReceiverTable& receivers = rows.by.receivers;
   float radius = 0;
   for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k) {
     const uint32_t p = receivers.patch[k];
-    for (const Vec3& corner :
-         cell_corners(rows.frames, rows.patches.face[p], rows.patches.cell[p], rows.patches.level[p]))
+    for (const Vec3& corner : cell_corners(rows.by.surfaces.frames, rows.by.patches.face[p],
+                                           rows.by.patches.cell[p], rows.by.patches.level[p]))
       radius = std::max(radius, distance(corner, receivers.centre[row]));
   }
   return radius;
 }
 
 Place make_place(uint32_t row, const Rows& rows) {
-  const ReceiverTable& receivers = rows.receivers;
-  const PatchTable& patches = rows.patches;
+  const ReceiverTable& receivers = rows.by.receivers;
+  const PatchTable& patches = rows.by.patches;
   const uint32_t patch = receivers.patch[receivers.first[row]], ray_count = rows.hits.ray_count;
-  return {
-      row,
-      patch,
-      receivers.first[row + 1] - receivers.first[row] > 1,
-      make_cell_frame(rows.frames.triangle[patches.face[patch]], patches.cell[patch], patches.level[patch]),
-      receivers.centre[row],
-      receivers.normal[row],
-      find_radius(row, rows),
-      ray_count,
-      std::max(ray_count / kRowRaysPerAimed / kPacketSize, 1u) * kPacketSize,
-      static_cast<float>(rows.hits.valid_count(row)) / static_cast<float>(ray_count)};
+  return {row,
+          patch,
+          receivers.first[row + 1] - receivers.first[row] > 1,
+          make_cell_frame(rows.by.surfaces.frames.triangle[patches.face[patch]], patches.cell[patch],
+                          patches.level[patch]),
+          receivers.centre[row],
+          receivers.normal[row],
+          find_radius(row, rows),
+          ray_count,
+          std::max(ray_count / kRowRaysPerAimed / kPacketSize, 1u) * kPacketSize,
+          static_cast<float>(rows.hits.valid_count(row)) / static_cast<float>(ray_count)};
 }
 
 // What a bounce reads; nothing in it changes while it runs.
@@ -129,10 +129,10 @@ struct Bounce {
 
 Origin find_origin_of(const Place& place, const Bounce& b, Vec2 sample) {
   const Rows& rows = b.rows;
-  if (place.shared)
-    return find_origin(rows.receivers, place.row, rows.patches, rows.faces, rows.frames, sample);
-  const uint32_t face = rows.patches.face[place.patch];
-  return {face_point(rows.frames, face, cell_sample(rows.frames.triangle[face], place.cell, sample)),
+  if (place.shared) return find_origin(rows.by, place.row, sample);
+  const uint32_t face = rows.by.patches.face[place.patch];
+  return {face_point(rows.by.surfaces.frames, face,
+                     cell_sample(rows.by.surfaces.frames.triangle[face], place.cell, sample)),
           place.normal};
 }
 
@@ -203,7 +203,7 @@ void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares&
     while (shares.cumulative[source] < at) ++source;
     const AimedSample sample = make_aimed_sample(key, index + k);
     const SourcePoint point =
-        pick_source_point(sources, b.elements.table, b.rows.frames, source, sample.target);
+        pick_source_point(sources, b.elements.table, b.rows.by.surfaces.frames, source, sample.target);
     const Origin from = find_origin_of(place, b, sample.origin);
     const Vec3 origin = from.point + ray_offset(from.point) * from.normal;
     Vec3 target = point.place;
@@ -237,13 +237,14 @@ struct SourceViews {
 };
 
 uint64_t make_place_key(const Place& place, const Bounce& b, uint32_t purpose) {
-  const PatchTable& patches = b.rows.patches;
+  const PatchTable& patches = b.rows.by.patches;
   const uint32_t patch = place.patch;
-  return make_row_key(b.rows.seed, patches.face[patch], patches.cell[patch], patches.level[patch], purpose);
+  return make_ray_key(b.rows.by.seed, patches.face[patch], patches.cell[patch], patches.level[patch],
+                      purpose);
 }
 
 uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& shares, const Bounce& b) {
-  const uint64_t key = make_place_key(place, b, kRowAimedProbe);
+  const uint64_t key = make_place_key(place, b, kAimedProbeRays);
   uint64_t ray_count = 0;
   AimedPacket packet;
   // Neighbours take turns: each every other packet, which hold different sources.
@@ -253,7 +254,8 @@ uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& 
     const uint32_t active = find_worthwhile(packet);
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.rows.tracer, packet.rays, active, RayOrder::kIncoherent);
+    const uint32_t blocked =
+        find_blocked(b.rows.by.surfaces.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       views.tried[packet.source[k]] += active >> k & 1u;
       views.reached[packet.source[k]] += (active & ~blocked) >> k & 1u;
@@ -277,7 +279,7 @@ void weigh_shares(AimShares& shares, const SourceViews& views) {
 
 // The part of the aimed rays; the mean over their count.
 Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, uint64_t& ray_count) {
-  const uint64_t key = make_place_key(place, b, kRowAimed);
+  const uint64_t key = make_place_key(place, b, kAimedRays);
   const Frame frame = make_frame(place.normal);
   Rgb sum(0);
   uint32_t usable_count = 0;
@@ -285,12 +287,13 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
   for (uint32_t index = 0; index < place.aimed; index += kPacketSize) {
     make_aimed_packet(packet, place, shares, b, key, index);
     const uint32_t buried =
-        place.share_valid < 1 ? find_buried(b.rows.tracer, b.rows.faces, frame, packet.rays, 0xffff) : 0;
+        place.share_valid < 1 ? find_buried(b.rows.by.surfaces, frame, packet.rays, 0xffff) : 0;
     usable_count += kPacketSize - static_cast<uint32_t>(std::popcount(buried));
     const uint32_t active = find_worthwhile(packet) & ~buried;
     if (!active) continue;
     ray_count += static_cast<uint64_t>(std::popcount(active));
-    const uint32_t blocked = find_blocked(b.rows.tracer, packet.rays, active, RayOrder::kIncoherent);
+    const uint32_t blocked =
+        find_blocked(b.rows.by.surfaces.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k)
       if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * b.sent[packet.element[k]];
   }
@@ -301,7 +304,7 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
 Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
                std::span<const uint32_t> element_source, RowScratch& scratch) {
   const RowHits hits = find_row(scratch, b.rows, place.row);
-  const FaceFrameTable& frames = b.rows.frames;
+  const FaceFrameTable& frames = b.rows.by.surfaces.frames;
   Rgb sum(0);
   for (size_t k = 0; k < place.rays; ++k) {
     const uint32_t patch = hits.patch[k];
@@ -310,7 +313,7 @@ Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
     const uint32_t source = shares.any ? element_source[element] : kNone;
     float weight = 1;
     if (source != kNone && shares.share[source] > 0) {
-      const uint32_t face = b.rows.patches.face[patch];
+      const uint32_t face = b.rows.by.patches.face[patch];
       const CellFrame end = make_cell_frame(frames.triangle[face], hits.cell[k], kLevelMax);
       const Vec2 uv = end.origin + end.size * 0.5f;
       const float row_density =
@@ -350,25 +353,25 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 
 }  // namespace
 
-void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const AimTable& aims) {
-  const FaceTable& faces = rows.faces;
+void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const LightListTable& lists) {
+  const FaceTable& faces = rows.by.surfaces.faces;
   // Few patches emit: a byte a patch stays in the cache.
-  std::vector<uint8_t> emits(rows.patches.size());
-  for (size_t p = 0; p < emits.size(); ++p) emits[p] = largest(faces.emission[rows.patches.face[p]]) > 0;
-  for_rows(rows.receivers.size(), 64, [&](size_t begin, size_t end) {
+  std::vector<uint8_t> emits(rows.by.patches.size());
+  for (size_t p = 0; p < emits.size(); ++p) emits[p] = largest(faces.emission[rows.by.patches.face[p]]) > 0;
+  for_rows(rows.by.receivers.size(), 64, [&](size_t begin, size_t end) {
     RowScratch scratch;
-    for (size_t row = begin; row < end; ++row) {
+    for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
       Rgb sum(0);
       // Polygons that share a receiver aim at the same lamps.
-      const uint32_t own = rows.receivers.patch[rows.receivers.first[row]];
-      const uint32_t polygon = faces.polygon[rows.patches.face[own]];
+      const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
+      const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
       for (const uint32_t patch : find_row(scratch, rows, row).patch) {
         if (patch >= kHitBuried || !emits[patch]) continue;
-        const uint32_t face = rows.patches.face[patch];
-        if (!is_aimed(aims, polygon, face)) sum += faces.emission[face];
+        const uint32_t face = rows.by.patches.face[patch];
+        if (!is_aimed(lists, polygon, face)) sum += faces.emission[face];
       }
       const uint32_t valid = rows.hits.valid_count(row);
-      spread(irradiance, rows.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
+      spread(irradiance, rows.by.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
     }
   });
 }
@@ -382,9 +385,9 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
   std::vector<Wide> source(sent.size() + 1, Wide{});
   for (size_t p = 0; p < sent.size(); ++p) source[p] = {{sent[p].r, sent[p].g, sent[p].b, 0}};
   const auto no_patch = static_cast<uint32_t>(sent.size());
-  for_rows(rows.receivers.size(), 64, [&](size_t begin, size_t end) {
+  for_rows(rows.by.receivers.size(), 64, [&](size_t begin, size_t end) {
     RowScratch scratch;
-    for (size_t row = begin; row < end; ++row) {
+    for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
       const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
       // Rays in two halves, a chequerboard over the strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the
       // other.
@@ -398,9 +401,9 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
       const auto valid = static_cast<float>(rows.hits.valid_count(row));
       const Rgb halves[2] = {{sum[0].channel[0], sum[0].channel[1], sum[0].channel[2]},
                              {sum[1].channel[0], sum[1].channel[1], sum[1].channel[2]}};
-      spread(irradiance, rows.receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
+      spread(irradiance, rows.by.receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
       if (!difference.empty())
-        spread(difference, rows.receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
+        spread(difference, rows.by.receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
     }
   });
 }
@@ -413,7 +416,7 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elem
     std::fill(element_source.begin() + sources.element_first[s],
               element_source.begin() + sources.element_last[s], s);
   assert(rows.hits.ray_count % kPacketSize == 0);
-  const std::vector<uint32_t> block_first = make_blocks(rows.receivers, rows.patches);
+  const std::vector<uint32_t> block_first = make_blocks(rows.by.receivers, rows.by.patches);
   std::atomic<uint64_t> ray_count{0};
   for_rows(block_first.size() - 1, 2, [&](size_t begin, size_t end) {
     std::vector<AimShares> shares(kBlock);
@@ -437,7 +440,7 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elem
           received = gather_row(place, mine, b, element_source, scratch);
           if (mine.any) received += gather_aimed(place, mine, b, cast);
         }
-        spread(irradiance, rows.receivers, row, received);
+        spread(irradiance, rows.by.receivers, row, received);
       }
     }
     ray_count += cast;

@@ -1,9 +1,11 @@
 // Rays that leave, and the edges that they pass.
 #include "leaks.h"
 
+#include "cell_rays.h"
 #include "parallel.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace patchlight {
 namespace {
@@ -23,32 +25,30 @@ struct Escape {
 
 // One packet of rays from each of some patches all over the scene, evenly over its directions; those that hit
 // nothing.
-std::vector<Escape> find_escapes(const Solution& s, const FaceTable& faces, const Tracer& tracer,
-                                 uint64_t seed, double& escaped) {
-  const RowGrid grid = make_row_grid(kPacketSize);
-  const size_t stride = std::max<size_t>((s.patches.size() + kPatchesMost - 1) / kPatchesMost, 1);
-  std::vector<std::vector<Escape>> escapes_of((s.patches.size() + stride - 1) / stride);
+std::vector<Escape> find_escapes(const Solution& s, double& escaped) {
+  const RayGrid grid = make_ray_grid(kPacketSize);
+  const size_t stride = std::max<size_t>((s.mesh.patches.size() + kPatchesMost - 1) / kPatchesMost, 1);
+  std::vector<std::vector<Escape>> escapes_of((s.mesh.patches.size() + stride - 1) / stride);
   for_rows(escapes_of.size(), 64, [&](size_t begin, size_t end) {
     HitPacket packet;
     for (size_t row = begin; row < end; ++row) {
       const size_t p = row * stride;
-      if (s.patches.exposed[p] < 1) continue;
-      const uint32_t face = s.patches.face[p];
-      const uint64_t key = make_row_key(seed, face, s.patches.cell[p], s.patches.level[p], kRowLeaks);
-      make_row_packet(packet, s.frames, make_frame(faces.normal[face]), face, s.patches.cell[p],
-                      s.patches.level[p], key, grid, 0);
-      find_hits(tracer, packet, 0xffff);
+      if (s.mesh.patches.exposed[p] < 1) continue;
+      const CellRays rays =
+          make_cell_rays(s.surfaces->faces, name_cell(s.mesh.patches, p), kLeakRays, s.settings.seed, grid);
+      make_ray_packet(packet, rays, s.surfaces->frames, 0);
+      find_hits(s.surfaces->tracer, packet, 0xffff);
       const RayPacket& r = packet.ray;
       for (uint32_t k = 0; k < kPacketSize; ++k)
         if (packet.face[k] == kNone)
           escapes_of[row].push_back({{r.origin_x[k], r.origin_y[k], r.origin_z[k]},
                                      {r.direction_x[k], r.direction_y[k], r.direction_z[k]},
-                                     s.patches.area[p] / kPacketSize});
+                                     s.mesh.patches.area[p] / kPacketSize});
     }
   });
   double area = 0;
-  for (size_t p = 0; p < s.patches.size(); p += stride)
-    if (s.patches.exposed[p] == 1) area += double{s.patches.area[p]};
+  for (size_t p = 0; p < s.mesh.patches.size(); p += stride)
+    if (s.mesh.patches.exposed[p] == 1) area += double{s.mesh.patches.area[p]};
   std::vector<Escape> escapes;
   for (const auto& list : escapes_of)
     for (const Escape& escape : list) {
@@ -64,11 +64,12 @@ struct BorderEdge {
   float length;
 };
 
-std::vector<BorderEdge> find_border(const Solution& s, const FaceTable& faces) {
+std::vector<BorderEdge> find_border(const Surfaces& surfaces) {
+  const FaceTable& faces = surfaces.faces;
   std::vector<BorderEdge> border;
   for (uint32_t f = 0; f < faces.size(); ++f)
     for (uint32_t k = 0; k < faces.corner_count[f]; ++k) {
-      if (s.links.edge[f][k].face != kNone) continue;
+      if (surfaces.links.edge[f][k].face != kNone) continue;
       const Vec3 start = faces.corners[f][k], end = faces.corners[f][(k + 1) % faces.corner_count[f]];
       border.push_back({f, k, start, end - start, distance(start, end)});
     }
@@ -90,11 +91,12 @@ float find_distance(const Escape& ray, const BorderEdge& edge) {
 
 }  // namespace
 
-LeakReport find_leaks(const Solution& s, const FaceTable& faces, const Tracer& tracer, uint64_t seed) {
+LeakReport find_leaks(const Solution& s) {
+  const WorkersScope scope(s.workers);
   LeakReport report;
-  const std::vector<Escape> escapes = find_escapes(s, faces, tracer, seed, report.escaped);
+  const std::vector<Escape> escapes = find_escapes(s, report.escaped);
   if (report.escaped < kEscapedLeast || report.escaped > kEscapedMost) return report;
-  const std::vector<BorderEdge> border = find_border(s, faces);
+  const std::vector<BorderEdge> border = find_border(*s.surfaces);
   const size_t most = std::min(kWorkMax / std::max<size_t>(border.size(), 1), kEscapesMost);
   if (border.empty() || most < kEscapesLeast) return report;
 

@@ -17,6 +17,6 @@ struct LeakReport {
 // nearest. An edge lies at a crack if most of the rays that pass it nearest pass it closely, compared with
 // its length: rays through windows keep away from the edges around them. Looks for cracks only where some
 // light leaves and most stays, as in a room that was to be closed; edges of a few thousand faces at most.
-LeakReport find_leaks(const Solution& solution, const FaceTable& faces, const Tracer& tracer, uint64_t seed);
+LeakReport find_leaks(const Solution& solution);
 
 }  // namespace patchlight

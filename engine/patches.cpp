@@ -11,7 +11,7 @@
 namespace patchlight {
 namespace {
 
-constexpr uint32_t kProbeRays = 32;
+constexpr uint32_t kProbeRayCount = 32;
 // A difference between neighbours, beyond its noise, splits them if it is more than this share of their
 // radiosity ...
 constexpr float kUnevenShare = 0.02f;
@@ -22,15 +22,14 @@ constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's 
 
 }  // namespace
 
-Probe probe_patch(const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, uint32_t face,
-                  uint32_t cell, uint32_t level, uint64_t row_key, RowGrid grid) {
+Probe probe_cell(const CellRays& rays, const Surfaces& surfaces) {
+  const FaceTable& faces = surfaces.faces;
   Probe probe;
-  probe.ray_count = grid.ray_count();
-  const Frame frame = make_frame(faces.normal[face]);
+  probe.ray_count = rays.grid.ray_count();
   HitPacket packet;
-  for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-    make_row_packet(packet, frames, frame, face, cell, level, row_key, grid, tile);
-    find_hits(tracer, packet, 0xffff);
+  for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
+    make_ray_packet(packet, rays, surfaces.frames, tile);
+    find_hits(surfaces.tracer, packet, 0xffff);
     uint32_t back = 0;
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       if (packet.face[k] == kNone) continue;
@@ -42,15 +41,17 @@ Probe probe_patch(const FaceTable& faces, const FaceFrameTable& frames, const Tr
     }
     if (back)
       probe.buried_count +=
-          static_cast<uint32_t>(std::popcount(find_buried(tracer, faces, frame, packet.ray, back)));
+          static_cast<uint32_t>(std::popcount(find_buried(surfaces, rays.frame, packet.ray, back)));
   }
   return probe;
 }
 
-PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, const FaceLinkTable& links,
-                        const Tracer& tracer, uint64_t patch_count_max, float size_factor, uint64_t seed,
-                        uint64_t& ray_count) {
-  const float scale = find_scene_scale(faces, frames) * size_factor;
+PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings, uint64_t& ray_count) {
+  const FaceTable& faces = surfaces.faces;
+  const FaceFrameTable& frames = surfaces.frames;
+  const FaceLinkTable& links = surfaces.smooth_links;
+  const uint64_t patch_count_max = settings.count_max;
+  const float scale = surfaces.scale * settings.size_factor;
   // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
   float edge_max = kPatchEdgeMax * scale;
   const auto start_level = [&](uint32_t face) {
@@ -68,36 +69,37 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
   while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
   PatchTable patches = make_leaves(faces, frames, start_level);
   balance_leaves(patches, frames, links);
-  const RowGrid grid = make_row_grid(kProbeRays);
+  const RayGrid grid = make_ray_grid(kProbeRayCount);
   std::vector<uint8_t> fresh(patches.size(), 1);
   for (;;) {
     std::vector<uint8_t> near(patches.size(), 0);  // to what they see, for their size, or at a solid
     std::atomic<uint64_t> probed{0};
     for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
       for (size_t row = begin; row < end; ++row) {
-        const uint32_t face = patches.face[row], cell = patches.cell[row], level = patches.level[row];
+        const auto [face, cell, level] = name_cell(patches, row);
         const float edge = longest_edge(cell_corners(frames, face, cell, level));
         if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
-        const Probe probe = probe_patch(faces, frames, tracer, face, cell, level,
-                                        make_row_key(seed, face, cell, level, kRowProbe), grid);
+        const Probe probe =
+            probe_cell(make_cell_rays(faces, {face, cell, level}, kProbeRays, settings.seed, grid), surfaces);
         probed += probe.ray_count;
         const bool at_solid = probe.buried_count > 0 && probe.buried_count < probe.ray_count;
-        const bool is_near = edge * probe.inverse_distance_sum >
-                             kPatchEdgePerDistance * size_factor * static_cast<float>(probe.hit_count);
+        const bool is_near =
+            edge * probe.inverse_distance_sum >
+            kPatchEdgePerDistance * settings.size_factor * static_cast<float>(probe.hit_count);
         const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
         if (probe.buried_count == probe.ray_count || !(is_near || at_solid) || edge < 2 * edge_min) continue;
         near[row] = 1;
       }
     });
     ray_count += probed;
-    std::vector<uint32_t> wanted;
-    for (uint32_t row = 0; row < near.size(); ++row)
-      if (near[row]) wanted.push_back(row);
-    if (wanted.empty()) return patches;
+    if (std::count(near.begin(), near.end(), 1) == 0) return patches;
     // Where the budget ends, the largest have the most to gain.
-    const std::vector<uint8_t> marks =
-        mark_within_budget(wanted, patches.area, patches, frames, links, patch_count_max);
-    const bool last = std::any_of(wanted.begin(), wanted.end(), [&](uint32_t row) { return !marks[row]; });
+    std::vector<float> weight(patches.size(), 0);
+    for (size_t row = 0; row < near.size(); ++row)
+      if (near[row]) weight[row] = patches.area[row];
+    const std::vector<uint8_t> marks = mark_within_budget(weight, patches, frames, links, patch_count_max);
+    bool last = false;
+    for (size_t row = 0; row < near.size(); ++row) last |= near[row] && !marks[row];
     std::vector<uint32_t> parent;
     const PatchTable before = std::move(patches);
     patches = split_leaves(before, frames, marks, parent);
@@ -107,10 +109,11 @@ PatchTable make_patches(const FaceTable& faces, const FaceFrameTable& frames, co
   }
 }
 
-std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& light, const FaceTable& faces,
-                                 const FaceFrameTable& frames, const FaceLinkTable& links,
-                                 const FaceLinkTable& joints, uint64_t patch_count_max, float size_factor) {
-  const float edge_min = kUnevenEdgeMin * find_scene_scale(faces, frames) * size_factor;
+std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& light, const Surfaces& surfaces,
+                                 const PatchSettings& settings) {
+  const FaceFrameTable& frames = surfaces.frames;
+  const float size_factor = settings.size_factor;
+  const float edge_min = kUnevenEdgeMin * surfaces.scale * size_factor;
   const float area_factor = size_factor * size_factor;
   const float share = kUnevenShare * area_factor;
   double power = 0;
@@ -125,7 +128,7 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
       const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
       if (size < 2 * edge_min) continue;
       for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
-        for (const uint32_t other : find_neighbours(patches, frames, links, row, edge)) {
+        for (const uint32_t other : find_neighbours(patches, frames, surfaces.links, row, edge)) {
           if (other == kNone || patches.exposed[other] == 0) continue;
           const float difference = std::abs(light.indirect[row] - light.indirect[other]) -
                                    kUnevenNoise * std::hypot(light.error[row], light.error[other]);
@@ -134,10 +137,9 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
         }
     }
   });
-  std::vector<uint32_t> candidates;
-  for (uint32_t row = 0; row < patches.size(); ++row)
-    if (weight[row] > power_least) candidates.push_back(row);
-  return mark_within_budget(std::move(candidates), weight, patches, frames, joints, patch_count_max);
+  for (float& change : weight)
+    if (change <= power_least) change = 0;
+  return mark_within_budget(weight, patches, frames, surfaces.smooth_links, settings.count_max);
 }
 
 }  // namespace patchlight

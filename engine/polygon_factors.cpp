@@ -177,7 +177,7 @@ Answer find_by_rays(TaskScratch& scratch, const Task& task, const FactorScene& s
     add_pair(scratch.pairs, corners_a(split, pair), parts.front[task.part_a].normal, corners_b(split, pair),
              parts.front[task.part_b].normal, pair.exchange);
   const double mixed = scratch.pairs.exchange_until.back();
-  const Sobol sobol = make_sobol(make_row_key(settings.seed, task.part_a, task.part_b, 0, 0));
+  const Sobol sobol = make_sobol(make_ray_key(settings.seed, task.part_a, task.part_b, 0, 0));
   PairSums sums;
   Share share{};
   double error_before = 0;
@@ -220,8 +220,8 @@ FactorTable make_factor_table(const FactorScene& scene, size_t polygon_count) {
   return table;
 }
 
-bool advance(FactorTable& table, const FactorScene& scene, const FaceTable& faces, const Tracer& tracer,
-             const FactorSettings& settings) {
+bool extend_factors(FactorTable& table, const FactorScene& scene, const FaceTable& faces,
+                    const Tracer& tracer, const FactorSettings& settings) {
   const uint32_t first = table.row_done;
   uint32_t last = first;
   for (size_t pairs = 0; last < table.size() && pairs < kPairsPerStep; ++last) pairs += table.size() - last;

@@ -42,8 +42,8 @@ FactorTable make_factor_table(const FactorScene& scene, size_t polygon_count);
 // and not on threads. Pairs with nothing between them are exact to 1e-6 (contour.h); of the others the exact
 // unoccluded exchange is multiplied by a ratio estimate of what passes (pair_rays.h), with as many rays as
 // the error takes. Surfaces closer than touch_distance() exchange nothing. Throws Cancelled.
-bool advance(FactorTable& table, const FactorScene& scene, const FaceTable& faces, const Tracer& tracer,
-             const FactorSettings& settings);
+bool extend_factors(FactorTable& table, const FactorScene& scene, const FaceTable& faces,
+                    const Tracer& tracer, const FactorSettings& settings);
 
 // These hold for rows that are known. The exchange area A_i F_ij, lengths squared.
 double find_exchange(const FactorTable& table, size_t i, size_t j);

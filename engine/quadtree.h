@@ -18,16 +18,6 @@ inline std::vector<uint32_t> all_rows(size_t count) {
   return rows;
 }
 
-// Which edges and corners of the faces of one polygon coincide. Faces of a polygon must share whole edges or
-// nothing (the loader cuts them so); coinciding corners must be equal bit by bit.
-FaceLinkTable make_face_links(const FaceTable& faces);
-
-// The same, and the edges that two polygons of one surface share where their normals differ by less than the
-// crease angle, 30 degrees, and their materials are equal: what the eye is to take for one curved surface. Of
-// several polygons on an edge the two that go on most straightly are joined. Corners are the same all along
-// joined edges.
-FaceLinkTable join_smooth_edges(const FaceLinkTable& links, const FaceTable& faces);
-
 // Leaves of `level_of(face)` (at most kLevelMax - 1) on every face, not yet balanced. Radiosity columns start
 // at the face's emission.
 PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
@@ -77,12 +67,12 @@ uint32_t find_coarse_neighbour(const PatchTable& leaves, const FaceFrameTable& f
 void mark_for_balance(std::vector<uint8_t>& marks, const PatchTable& leaves, const FaceFrameTable& frames,
                       const FaceLinkTable& links);
 
-// Of the leaves `candidates` those that a budget has room for, of most weight (a row a leaf) first, and what
+// Of the leaves with a weight above 0 those that a budget has room for, of most weight first, and what
 // balance asks for with them: that counts towards the budget, too, and where it takes too much, fewer are
-// marked. Returns a row a leaf; all 0 if nothing fits.
-std::vector<uint8_t> mark_within_budget(std::vector<uint32_t> candidates, std::span<const float> weight,
-                                        const PatchTable& leaves, const FaceFrameTable& frames,
-                                        const FaceLinkTable& links, uint64_t leaf_count_max);
+// marked. Both columns have a row a leaf; all marks are 0 if nothing fits.
+std::vector<uint8_t> mark_within_budget(std::span<const float> weight, const PatchTable& leaves,
+                                        const FaceFrameTable& frames, const FaceLinkTable& links,
+                                        uint64_t leaf_count_max);
 
 // Splits the marked leaves into four; the children inherit all columns (same W/m2, so the power is
 // unchanged), a quarter each of the area as their shapes have it. parent[row of the result] = row before.

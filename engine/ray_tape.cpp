@@ -55,7 +55,7 @@ Replay make_replay(const TapeTrack& track) {
     packet.ray = track.packets[p];
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       packet.ray.time[k] = 0, packet.ray.mask[k] = ~0u, packet.ray.id[k] = k, packet.ray.flags[k] = 0;
-      packet.geometry[k] = packet.face[k] = packet.instance[k] = ~0u;
+      packet.geometry[k] = packet.face[k] = packet.instance[k] = packet.instance_primitive[k] = ~0u;
       replay.lanes[p].valid[k] = (track.active[p] >> k & 1u) ? -1 : 0;
     }
     replay.far_distance.insert(replay.far_distance.end(), packet.ray.far_distance,

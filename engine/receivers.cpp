@@ -41,12 +41,12 @@ uint32_t find_normal_kind(Vec3 n) {
 
 // What is in front of a patch, from one packet of rays. False if it must have a receiver of its own: large,
 // or partly buried.
-bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patches, const FaceTable& faces,
-                    const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed, float scale) {
-  const uint32_t face = patches.face[patch], cell = patches.cell[patch], level = patches.level[patch];
-  const Probe probe =
-      probe_patch(faces, frames, tracer, face, cell, level, make_row_key(seed, face, cell, level, kRowShare),
-                  make_row_grid(kPacketSize));
+bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patches, const Surfaces& surfaces,
+                    uint64_t seed) {
+  const auto& [faces, frames, links, smooth_links, tracer, scale] = surfaces;
+  const auto [face, cell, level] = name_cell(patches, patch);
+  const Probe probe = probe_cell(
+      make_cell_rays(faces, {face, cell, level}, kShareRays, seed, make_ray_grid(kPacketSize)), surfaces);
   const bool buried = probe.buried_count > 0;
   if (buried && probe.buried_count < probe.ray_count) return false;
   const float reach = kPacketSize / std::max(probe.inverse_distance_sum, 1e-6f / scale);
@@ -92,16 +92,16 @@ void cut_parts(std::span<Candidate> all, size_t begin, size_t end, const PatchTa
 }
 
 void add_receiver(ReceiverTable& receivers, std::span<const uint32_t> members, const PatchTable& patches,
-                  const FaceTable& faces, const FaceFrameTable& frames) {
+                  const Surfaces& surfaces) {
   const auto row = static_cast<uint32_t>(receivers.size());
   double area = 0;
   DVec3 centre(0), normal(0);
   for (const uint32_t patch : members) {
     const double share = patches.area[patch];
     area += share;
-    centre +=
-        share * DVec3(cell_centre(frames, patches.face[patch], patches.cell[patch], patches.level[patch]));
-    normal += share * DVec3(faces.normal[patches.face[patch]]);
+    const auto [face, cell, level] = name_cell(patches, patch);
+    centre += share * DVec3(cell_centre(surfaces.frames, face, cell, level));
+    normal += share * DVec3(surfaces.faces.normal[face]);
     receivers.receiver_of[patch] = row;
     receivers.patch.push_back(patch);
     receivers.area_until.push_back(static_cast<float>(area));
@@ -123,16 +123,15 @@ ReceiverTable make_empty(const PatchTable& patches) {
 
 }  // namespace
 
-ReceiverTable make_single_receivers(const PatchTable& patches, const FaceTable& faces,
-                                    const FaceFrameTable& frames) {
+ReceiverTable make_single_receivers(const PatchTable& patches, const Surfaces& surfaces) {
   ReceiverTable receivers = make_empty(patches);
   for (uint32_t patch = 0; patch < patches.size(); ++patch)
-    add_receiver(receivers, std::span(&patch, 1), patches, faces, frames);
+    add_receiver(receivers, std::span(&patch, 1), patches, surfaces);
   return receivers;
 }
 
 ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint32_t> parent,
-                              const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
+                              const PatchTable& patches, const Surfaces& surfaces,
                               std::vector<uint32_t>& row_before) {
   const auto is_shared = [&](uint32_t row) { return before.first[row + 1] - before.first[row] > 1; };
   ReceiverTable receivers = make_empty(patches);
@@ -144,7 +143,7 @@ ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint3
   for (uint32_t patch = 0; patch < patches.size(); ++patch) {
     const uint32_t row = before.receiver_of[parent[patch]];
     if (is_shared(row)) continue;
-    add_receiver(receivers, std::span(&patch, 1), patches, faces, frames);
+    add_receiver(receivers, std::span(&patch, 1), patches, surfaces);
     row_before.push_back(is_split(patch) ? kNone : row);
   }
   std::vector<std::vector<uint32_t>> members(before.size());
@@ -152,15 +151,15 @@ ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint3
     if (const uint32_t row = before.receiver_of[parent[patch]]; is_shared(row)) members[row].push_back(patch);
   for (uint32_t row = 0; row < before.size(); ++row) {
     if (members[row].empty()) continue;
-    add_receiver(receivers, members[row], patches, faces, frames);
+    add_receiver(receivers, members[row], patches, surfaces);
     row_before.push_back(row);
   }
   return receivers;
 }
 
-ReceiverTable make_receivers(const PatchTable& patches, const FaceTable& faces, const FaceFrameTable& frames,
-                             const Tracer& tracer, uint64_t seed, uint64_t& ray_count) {
-  const float scale = find_scene_scale(faces, frames);
+ReceiverTable make_receivers(const PatchTable& patches, const Surfaces& surfaces, uint64_t seed,
+                             uint64_t& ray_count) {
+  const float scale = surfaces.scale;
   std::vector<Candidate> all(patches.size());
   std::atomic<uint64_t> probed{0};
   for_rows(patches.size(), 256, [&](size_t begin, size_t end) {
@@ -168,9 +167,9 @@ ReceiverTable make_receivers(const PatchTable& patches, const FaceTable& faces, 
     for (size_t row = begin; row < end; ++row) {
       all[row].patch = kNone;
       const float largest_area = kSmallFace * kSmallFace * kSpanMax * kSpanMax * scale * scale;
-      if (cell_area(frames, patches.face[row], 0, 0) > largest_area) continue;
+      if (cell_area(surfaces.frames, patches.face[row], 0, 0) > largest_area) continue;
       rays += kPacketSize;
-      if (!find_candidate(all[row], static_cast<uint32_t>(row), patches, faces, frames, tracer, seed, scale))
+      if (!find_candidate(all[row], static_cast<uint32_t>(row), patches, surfaces, seed))
         all[row].patch = kNone;
     }
     probed += rays;
@@ -191,14 +190,14 @@ ReceiverTable make_receivers(const PatchTable& patches, const FaceTable& faces, 
   // Those on their own first, in the order of the patches: neighbours in memory are neighbours in space.
   ReceiverTable receivers = make_empty(patches);
   for (uint32_t patch = 0; patch < patches.size(); ++patch)
-    if (!shares[patch]) add_receiver(receivers, std::span(&patch, 1), patches, faces, frames);
+    if (!shares[patch]) add_receiver(receivers, std::span(&patch, 1), patches, surfaces);
   std::vector<uint32_t> members;
   for (size_t part = 0, begin = 0; part < ends.size(); begin = ends[part++]) {
     if (ends[part] - begin < 2) continue;
     members.clear();
     for (size_t k = begin; k < ends[part]; ++k) members.push_back(all[k].patch);
     std::sort(members.begin(), members.end());
-    add_receiver(receivers, members, patches, faces, frames);
+    add_receiver(receivers, members, patches, surfaces);
   }
   return receivers;
 }

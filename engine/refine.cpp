@@ -27,9 +27,9 @@ float find_excess(const RefineInput& input, uint32_t a, uint32_t b, float thresh
 
 }  // namespace
 
-std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTable& frames,
-                                    const FaceLinkTable& links, const FaceLinkTable& joints, float threshold,
-                                    float patch_size_min, uint64_t patch_count_max) {
+std::vector<uint8_t> mark_differing(const RefineInput& input, const Surfaces& surfaces,
+                                    const RefineLimits& limits) {
+  const FaceFrameTable& frames = surfaces.frames;
   const PatchTable& elements = input.elements;
   // The largest difference that each element has a part in; in the end, times its area, and 0 where
   // none may be split.
@@ -46,9 +46,9 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
       const uint32_t row = input.fresh[k];
       if (elements.exposed[row] == 0) continue;
       for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
-        for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
+        for (const uint32_t other : find_neighbours(elements, frames, surfaces.links, row, edge)) {
           if (other == kNone || elements.exposed[other] == 0) continue;
-          if (const float value = find_excess(input, row, other, threshold); value > 0)
+          if (const float value = find_excess(input, row, other, limits.threshold); value > 0)
             raise(row, value), raise(other, value);
         }
     }
@@ -58,20 +58,17 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const FaceFrameTab
       if (excess[row] <= 0) continue;
       const float edge =
           longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
-      const bool is_least = elements.level[row] >= kLevelMax - 1 || edge < patch_size_min;
+      const bool is_least = elements.level[row] >= kLevelMax - 1 || edge < limits.patch_size_min;
       excess[row] *= is_least ? 0 : elements.area[row];
     }
   });
-  std::vector<uint32_t> candidates;
-  for (uint32_t row = 0; row < elements.size(); ++row)
-    if (excess[row] > 0) candidates.push_back(row);
-  return mark_within_budget(std::move(candidates), excess, elements, frames, joints, patch_count_max);
+  return mark_within_budget(excess, elements, frames, surfaces.smooth_links, limits.patch_count_max);
 }
 
 void find_split_reasons(std::span<SplitReason> reasons, std::span<const uint8_t> marks,
-                        const RefineInput& input, std::span<const Rgb> direct, const FaceTable& faces,
-                        const FaceFrameTable& frames, const FaceLinkTable& links, float threshold) {
+                        const RefineInput& input, const Surfaces& surfaces, float threshold) {
   const PatchTable& elements = input.elements;
+  const FaceFrameTable& frames = surfaces.frames;
   for_rows(elements.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       if (!marks[k]) continue;
@@ -79,13 +76,14 @@ void find_split_reasons(std::span<SplitReason> reasons, std::span<const uint8_t>
       float excess_largest = 0;
       reasons[row] = SplitReason::kBalance;
       for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
-        for (const uint32_t other : find_neighbours(elements, frames, links, row, edge)) {
+        for (const uint32_t other : find_neighbours(elements, frames, surfaces.links, row, edge)) {
           if (other == kNone || elements.exposed[row] == 0 || elements.exposed[other] == 0) continue;
           const float excess = find_excess(input, row, other, threshold);
           if (excess <= excess_largest) continue;
           excess_largest = excess;
           const Rgb all = elements.radiosity[row] - elements.radiosity[other];
-          const Rgb reflected = faces.reflectance[elements.face[row]] * (direct[row] - direct[other]);
+          const Rgb reflected =
+              surfaces.faces.reflectance[elements.face[row]] * (input.direct[row] - input.direct[other]);
           reasons[row] = largest(abs(reflected)) >= largest(abs(all - reflected)) ? SplitReason::kDirect
                                                                                   : SplitReason::kIndirect;
         }

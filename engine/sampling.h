@@ -1,5 +1,5 @@
-// Samples that depend on (seed, row, index) alone, never on a thread or on time: counter-based hashing,
-// stratified points, cosine directions.
+// Samples that depend on (seed, cell, purpose, index) alone, never on a thread or on time: counter-based
+// hashing.
 #pragma once
 
 #include "vector.h"
@@ -14,26 +14,16 @@ inline uint64_t mix_bits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A key for the samples of one row: any two rows of a run, and any two seeds, have unrelated samples.
-inline uint64_t make_row_key(uint64_t seed, uint32_t face, uint32_t cell, uint32_t level, uint32_t purpose) {
+// A key for the samples of one cell of a face: any two cells, purposes or seeds have unrelated samples.
+inline uint64_t make_ray_key(uint64_t seed, uint32_t face, uint32_t cell, uint32_t level, uint32_t purpose) {
   return mix_bits(mix_bits(seed * 0x9e3779b97f4a7c15ull + purpose) ^
                   mix_bits((uint64_t{face} << 32 | cell) + 0x632be59bd9b4e019ull * (level + 1)));
 }
 
-// Two numbers in [0, 1) for sample `index` of a row.
-inline Vec2 make_jitter(uint64_t row_key, uint32_t index) {
-  const uint64_t bits = mix_bits(row_key + 0x9e3779b97f4a7c15ull * (index + 1));
+// Two numbers in [0, 1) for sample `index` of a key.
+inline Vec2 make_jitter(uint64_t key, uint32_t index) {
+  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
   return {static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits >> 8 & 0xffffff) * 0x1p-24f};
-}
-
-// Square to disk that keeps strata whole (Shirley, Chiu: A Low Distortion Map Between Disk and Square, 1997).
-inline Vec2 square_to_disk(Vec2 p) {
-  const float a = 2 * p.x - 1, b = 2 * p.y - 1;
-  if (a == 0 && b == 0) return {0, 0};
-  const bool wide = a * a > b * b;
-  const float radius = wide ? a : b;
-  const float angle = wide ? kPi / 4 * (b / a) : kPi / 2 - kPi / 4 * (a / b);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 // Two unit vectors that complete a normal to a right-handed frame (Duff et al.: Building an Orthonormal
@@ -45,15 +35,6 @@ inline Frame make_frame(Vec3 n) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1 / (sign + n.z), b = n.x * n.y * a;
   return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
-}
-
-// A direction with density cos / pi about the frame's normal (Malley's method), from a point of the unit
-// square.
-inline Vec3 make_cosine_direction(const Frame& frame, Vec2 p) {
-  const Vec2 disk = square_to_disk(p);
-  // Directions within a thousandth of a degree of the plane would only scratch the surface that they leave.
-  const float height = std::sqrt(std::max(1 - dot(disk, disk), 1e-9f));
-  return disk.x * frame.tangent + disk.y * frame.bitangent + height * frame.normal;
 }
 
 // How far off its surface a ray starts, in lengths: a few units in the last place of the coordinates near it.

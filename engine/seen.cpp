@@ -3,6 +3,7 @@
 // the result is the same, bit by bit.
 #include "seen.h"
 
+#include "quadtree.h"
 #include "sampling.h"
 
 #include <bit>
@@ -88,17 +89,18 @@ void find_parameters(Seen& seen, const HitPacket& packet, uint32_t face, const L
   }
 }
 
-// All rays met nothing, or the lit side of one face: true, and what they see
-// is found. False: nothing is done.
-bool see_one_face(Seen& seen, uint32_t& guess, const HitPacket& packet, const Lens& lens,
-                  const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements) {
+// All rays met nothing, or the lit side of one face: true, and what they see is found. False: nothing is
+// done.
+bool see_one_face(Seen& seen, uint32_t& guess, const HitPacket& packet, const Prospect& prospect) {
+  const auto& [lens, surfaces, elements] = prospect;
+  const FaceFrameTable& frames = surfaces.frames;
   const uint32_t face = packet.face[0];
   uint32_t differing = 0;
   for (uint32_t k = 0; k < kPacketSize; ++k) differing |= packet.face[k] ^ face;
   if (differing != 0) return false;
   if (face == kNone) return true;
   const RayPacket& r = packet.ray;
-  const Vec3 normal = faces.normal[face];
+  const Vec3 normal = surfaces.faces.normal[face];
   float facing_most = -1;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const float facing =
@@ -120,17 +122,18 @@ bool see_one_face(Seen& seen, uint32_t& guess, const HitPacket& packet, const Le
 
 }  // namespace
 
-uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], const Lens& lens,
-                   const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements,
-                   const Tracer& tracer) {
+uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], const Prospect& prospect) {
+  const auto& [lens, surfaces, elements] = prospect;
+  const FaceTable& faces = surfaces.faces;
+  const FaceFrameTable& frames = surfaces.frames;
   HitPacket packet;
   uint32_t active = aim(packet, at, lens);
   for (uint32_t k = 0; k < kPacketSize; ++k) seen.element[k] = kNone;
   uint64_t rays = 0;
   for (uint32_t through = 0; active && through < kBackSidesMax; ++through) {
-    find_hits(tracer, packet, active);
+    find_hits(surfaces.tracer, packet, active);
     rays += static_cast<uint64_t>(std::popcount(active));
-    if (active == kAll && see_one_face(seen, guess, packet, lens, faces, frames, elements)) break;
+    if (active == kAll && see_one_face(seen, guess, packet, prospect)) break;
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       if (!(active >> k & 1u)) continue;
       const uint32_t face = packet.face[k];

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "lens.h"
-#include "quadtree.h"
-#include "tracer.h"
+#include "surfaces.h"
 
 namespace patchlight {
 
@@ -15,11 +14,16 @@ struct Seen {
   float distance[kPacketSize];  // lengths
 };
 
+// What is looked at, and how.
+struct Prospect {
+  Lens lens;
+  const Surfaces& surfaces;
+  const PatchTable& elements;
+};
+
 // What the rays through the points `at` meet, in pixels from the top left. Looks through back sides, except
 // in a hemisphere. `guess` is an element that may be seen, or kNone; it becomes one that is. It changes
 // nothing but the time. Returns the number of rays.
-uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], const Lens& lens,
-                   const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& elements,
-                   const Tracer& tracer);
+uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], const Prospect& prospect);
 
 }  // namespace patchlight

@@ -15,9 +15,8 @@ struct SolverSettings {
   float threshold = 0.1f;    // neighbours that differ by a larger share of the larger one are split
   uint64_t patch_count_max = 200000;  // the budget of patches (elements)
   uint32_t rays = 256;                // rays a row; more: less noise, more time
-  float quality = 1;     // times the rays and finer patches at once: about so many times the time; less error
-  uint64_t seed = 1;     // another seed, other samples
-  bool ambient = false;  // shooting: pictures show an estimate of the light that is unshot
+  float quality = 1;  // times the rays and finer patches at once: about so many times the time; less error
+  uint64_t seed = 1;  // another seed, other samples
   bool keep_rows = true;  // false: form factors are computed again in every pass; same bits
 };
 

@@ -4,7 +4,7 @@
 #include "shoot.h"
 
 #include "parallel.h"
-#include "rows.h"
+#include "sampling.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,16 +22,19 @@ struct DimPacket {
 };
 
 // A pair of points, one on each.
-void add_dim_ray(DimPacket& dim, const PatchTable& elements, uint32_t row, float factor, const Lamp& shooter,
-                 const FaceTable& faces, const FaceFrameTable& frames, uint64_t key) {
+void add_dim_ray(DimPacket& dim, const ElementPoints& from, float factor, const Emitter& shooter) {
+  const PatchTable& elements = from.elements;
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const uint64_t key = mix_bits(from.key);
+  const uint32_t row = from.row;
   const uint32_t face = elements.face[row], k = dim.count++;
   const bool triangle = frames.triangle[face], shooter_triangle = frames.triangle[shooter.face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[row], elements.level[row]);
-  const Vec3 from = face_point(frames, face, cell_sample(triangle, cell, make_jitter(key, 0)));
-  const Vec3 to =
+  const Vec3 near = face_point(frames, face, cell_sample(triangle, cell, make_jitter(key, 0)));
+  const Vec3 far =
       face_point(frames, shooter.face, cell_sample(shooter_triangle, shooter.cell, make_jitter(key, 1)));
-  const Vec3 start = from + ray_offset(from) * faces.normal[face];
-  const Vec3 way = to + ray_offset(to) * shooter.normal - start;
+  const Vec3 start = near + ray_offset(near) * from.surfaces.faces.normal[face];
+  const Vec3 way = far + ray_offset(far) * shooter.normal - start;
   dim.rays.origin_x[k] = start.x, dim.rays.origin_y[k] = start.y, dim.rays.origin_z[k] = start.z;
   dim.rays.direction_x[k] = way.x, dim.rays.direction_y[k] = way.y, dim.rays.direction_z[k] = way.z;
   dim.rays.near_distance[k] = 0, dim.rays.far_distance[k] = 1;
@@ -48,15 +51,16 @@ void finish_dim(std::span<Rgb> irradiance, DimPacket& dim, Rgb sent, const Trace
 
 }  // namespace
 
-ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const Lamp& shooter, Rgb sent,
-                 const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, ShotRays rays,
-                 uint64_t seed, uint64_t shot) {
+ShotCounts shoot(std::span<Rgb> irradiance, const Shot& shot, const PatchTable& elements,
+                 const Surfaces& surfaces, ShotRays rays) {
+  const FaceTable& faces = surfaces.faces;
+  const Emitter& shooter = shot.shooter;
+  const Rgb sent = shot.sent;
   const uint32_t packet_count = std::clamp(rays.mixed / kPacketSize, 1u, kPacketsMax);
-  const Strata strata(packet_count);
-  const uint64_t shot_key = mix_bits(shot + 1);
+  const uint64_t shot_key = mix_bits(shot.number + 1);
   std::atomic<uint64_t> factor_count{0}, ray_count{0};
   for_rows(elements.size(), 1024, [&](size_t begin, size_t end) {
-    PointPackets packets;
+    ElementPoints from(surfaces, elements, packet_count);
     DimPacket dim;
     uint64_t counted = 0, cast = 0;
     for (auto row = static_cast<uint32_t>(begin); row < end; ++row) {
@@ -64,31 +68,28 @@ ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const La
       const uint32_t face = elements.face[row];
       if (elements.exposed[row] == 0) continue;
       const Vec3 normal = faces.normal[face];
-      const auto corners = cell_corners(frames, face, elements.cell[row], elements.level[row]);
+      const auto corners = cell_corners(surfaces.frames, face, elements.cell[row], elements.level[row]);
       if (!can_reach(corners, normal, shooter)) continue;
-      const uint64_t key = make_element_key(elements, row, seed) ^ shot_key;
       const bool partly_buried = elements.exposed[row] < 1;
-      packets.made = 0;
+      start_element(from, row, shot.seed, shot_key);
       if (partly_buried) {
-        make_packets(packets, 1, strata, elements, faces, frames, tracer, row, key);
-        if (packets.open[0] == 0) continue;
+        make_packets(from, 1);
+        if (from.open[0] == 0) continue;
       }
-      const float factor = find_mean_factor(elements, frames, row, normal, corners, shooter,
-                                            packets.points[0], partly_buried ? packets.open[0] : 0xffff);
+      const float factor = find_mean_factor(from, corners, shooter, partly_buried ? from.open[0] : 0xffff);
       if (factor == 0) continue;
       ++counted;
       if (!partly_buried && factor * largest(sent) < rays.bright) {
-        add_dim_ray(dim, elements, row, factor, shooter, faces, frames, mix_bits(key));
+        add_dim_ray(dim, from, factor, shooter);
         ++cast;
-        if (dim.count == kPacketSize) finish_dim(irradiance, dim, sent, tracer);
+        if (dim.count == kPacketSize) finish_dim(irradiance, dim, sent, surfaces.tracer);
         continue;
       }
-      const VisibilitySums sums = find_visibility(packets, packet_count, rays.unmixed, strata, elements,
-                                                  shooter, faces, frames, tracer, row, key);
+      const VisibilitySums sums = find_visibility(from, shooter, packet_count, rays.unmixed);
       cast += sums.rays;
       irradiance[row] = factor * sums.share() * sent;
     }
-    finish_dim(irradiance, dim, sent, tracer);
+    finish_dim(irradiance, dim, sent, surfaces.tracer);
     factor_count += counted, ray_count += cast;
   });
   return {factor_count, ray_count};

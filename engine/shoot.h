@@ -5,7 +5,7 @@
 // Haines: A Ray Tracing Algorithm for Progressive Radiosity, 1989), so that small shooters are never missed.
 #pragma once
 
-#include "sight.h"
+#include "visibility.h"
 
 #include <span>
 
@@ -21,10 +21,16 @@ struct ShotCounts {
   uint64_t rays = 0;
 };
 
-// Irradiance that each element receives from the shooter, which sends `sent` (W/m2). irradiance: a row an
-// element, W/m2, mean over its exposed area, overwritten. shot: its number, for samples.
-ShotCounts shoot(std::span<Rgb> irradiance, const PatchTable& elements, const Lamp& shooter, Rgb sent,
-                 const FaceTable& faces, const FaceFrameTable& frames, const Tracer& tracer, ShotRays rays,
-                 uint64_t seed, uint64_t shot);
+struct Shot {
+  Emitter shooter;
+  Rgb sent;         // W/m2
+  uint64_t number;  // other samples for each shot, and for each seed
+  uint64_t seed;
+};
+
+// Irradiance that each element receives from the shooter. irradiance: a row an element, W/m2, mean over its
+// exposed area, overwritten.
+ShotCounts shoot(std::span<Rgb> irradiance, const Shot& shot, const PatchTable& elements,
+                 const Surfaces& surfaces, ShotRays rays);
 
 }  // namespace patchlight

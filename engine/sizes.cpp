@@ -1,5 +1,7 @@
-// Settings to sizes, counts and bytes, before anything is solved; tables to bytes.
-#include "solution.h"
+// Settings to sizes and counts, before anything is solved.
+#include "sizes.h"
+
+#include "cell.h"
 
 #include <algorithm>
 
@@ -58,42 +60,6 @@ PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames
 uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings) {
   const FaceFrameTable frames = make_face_frames(faces);
   return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings).start);
-}
-
-uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
-  // Bytes a row, from tables.h; the largest moment is a split, when the rows of the patches or, later, the
-  // elements exist twice, or the making of the shared corners.
-  constexpr uint64_t kFaceBytes = 700, kElementBytes = 190, kPatchBytes = 200;
-  const uint64_t elements = std::max(starting_patches, settings.patch_count_max);
-  const uint64_t patches = count_transport_patches(faces, settings);
-  const uint64_t row_bytes =
-      settings.keep_rows ? 8 * uint64_t{make_row_grid(count_row_rays(settings)).ray_count()} : 0;
-  const uint64_t rows = row_bytes * patches;
-  return kFaceBytes * faces.size() + kPatchBytes * patches +
-         std::max(2 * rows + kElementBytes * std::max(starting_patches, patches),
-                  rows + kElementBytes * elements);
-}
-
-uint64_t count_bytes(const Solution& s) {
-  const auto bytes = [](const auto&... column) {
-    return ((column.capacity() * sizeof(column[0])) + ... + 0);
-  };
-  const auto patch_bytes = [&](const PatchTable& t) {
-    return bytes(t.face, t.cell, t.level, t.area, t.exposed, t.radiosity, t.unshot, t.face_first);
-  };
-  const auto vertex_bytes = [&](const VertexTable& t) {
-    return bytes(t.leaf_vertex, t.vertex_first, t.vertex_leaf, t.hanging_between, t.hanging_order, t.border);
-  };
-  const FaceFrameTable& f = s.frames;
-  return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine, s.links.edge,
-               s.links.corner, s.joints.edge, s.joints.corner, s.element_first, s.element_patch,
-               s.aims.list_of, s.aims.list_first, s.aims.lamp, s.receivers.first, s.receivers.patch,
-               s.receivers.area_until, s.receivers.centre, s.receivers.normal, s.receivers.receiver_of,
-               s.views.seen, s.views.hidden, s.views.settled, s.hits.patch, s.hits.cell, s.hits.nothing,
-               s.hits.back, s.hits.buried, s.direct, s.direct_error, s.irradiance, s.irradiance_added,
-               s.coarse, s.coarse_error, s.fresh, s.reasons) +
-         patch_bytes(s.patches) + patch_bytes(s.elements) + vertex_bytes(s.patch_vertices) +
-         vertex_bytes(s.element_vertices);
 }
 
 }  // namespace patchlight

@@ -1,21 +1,28 @@
-// The solver as its callers see it: make the meshes, refine them in rounds, then advance pass by pass.
+// The solver as its callers see it.
 //
-//   Solution solution = make_solution(faces, tracer, settings);
-//   while (refine(solution, faces, tracer, settings)) {}           // rounds, until nothing splits
-//   freeze(solution, faces, tracer, settings);                     // the mesh is final; pictures can be
-//   taken while (solution.passes.size() < wanted) advance(solution, faces, tracer, settings);
+//   auto surfaces = make_surfaces(faces);               // surfaces.h; throws where faces are wrong
+//   Solution solution = make_solution(surfaces, settings);
+//   while (refine(solution)) {                          // rounds, until nothing splits
+//   }
+//   freeze(solution);                                   // the mesh is final: pictures can be taken
+//   while (!is_converged(solution)) advance(solution);  // pass by pass
+//   std::vector<Rgb> radiosity = vertex_radiosity(solution);
 //
-// The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints.
+// The caller owns the loops, the pictures in between and the stopping rule. Nothing here prints. All throw
+// Cancelled once the solution's workers are asked to stop (parallel.h). Other ways to solve a frozen mesh:
+// solvers.h. Pictures: film.h.
 #pragma once
 
-#include "rows.h"
+#include "mesh.h"
+#include "parallel.h"
 #include "settings.h"
-#include "tracer.h"
+#include "surfaces.h"
 
-#include <cstdint>
-#include <vector>
+#include <optional>
 
 namespace patchlight {
+
+struct Scenery;
 
 struct RoundReport {
   uint32_t round = 0;        // 1 is the starting mesh
@@ -42,103 +49,94 @@ struct PowerLedger {
   double closure_error = 0;
 };
 
-struct Seconds {
-  double trace = 0, split = 0, solve = 0;
+// What light travels along.
+struct Transport {
+  LightListTable light_lists;
+  LampViewTable views;      // a row an element; until the mesh is frozen
+  ReceiverTable receivers;  // of the patches
+  HitTable hits;            // a row of rays a receiver
+};
+
+// In W/m2. The irradiance of an element, under every solver: its row of `sharp` and, at its centre, the
+// surface of `smooth`. Radiosity is a column of the mesh.
+struct Irradiance {
+  std::vector<Rgb> sharp;           // a row an element: what was found element by element
+  std::vector<Rgb> smooth;          // a row a patch: what was found patch by patch
+  std::vector<Rgb> smooth_added;    // a row a patch: what the last pass added to it
+  std::vector<Rgb> direct;          // a row an element: from the lamps aimed at
+  std::vector<float> direct_error;  // a row an element: its standard error (luminance)
+  std::vector<Rgb> coarse;          // a row a patch: all bounces, as the coarse solution forecasts them
+  std::vector<float> coarse_error;  // a row a patch: its standard error (luminance)
+  float mean_radiosity = 0;         // of the coarse solution, reflected light only (largest channel)
+};
+
+struct Log {
+  std::vector<RoundReport> rounds;
+  std::vector<PassReport> passes;
+  double trace_seconds = 0, split_seconds = 0, solve_seconds = 0;
+  uint64_t direct_ray_count = 0;
+  uint64_t transport_ray_count = 0;  // probes, rows and the aimed rays of pass 2, or rays of shots
+  uint64_t factor_count = 0;         // form factors that the steps so far took, each estimate of one counted
+};
+
+// What only the solver `shooting` keeps.
+struct ShootingState {
+  std::vector<uint32_t> shots;  // a row a patch: how often it was the shooter
+  double power = 0;             // what all shots added, as PassReport has it, channels summed
 };
 
 struct Solution {
-  FaceFrameTable frames;
-  FaceLinkTable links;   // within polygons
-  FaceLinkTable joints;  // and across smooth edges between them
-  PatchTable patches, elements;
-  std::vector<uint32_t> element_first;  // CSR: patch -> its elements, patches + 1
-  std::vector<uint32_t> element_patch;  // a row an element
-  VertexTable patch_vertices;           // of the patches; of the elements once the mesh is frozen
-  VertexTable element_vertices;
-  AimTable aims;
-  LampViewTable views;               // a row an element
-  std::vector<SplitReason> reasons;  // a row an element
-  LeafIndex patch_index;
-  ReceiverTable receivers;            // of the patches
-  HitTable hits;                      // a row of rays a receiver
-  std::vector<Rgb> direct;            // a row an element: irradiance from the lamps aimed at, W/m2
-  std::vector<float> direct_error;    // a row an element: its standard error, W/m2 (luminance)
-  std::vector<Rgb> irradiance;        // a row a patch: all other irradiance of the passes so far, W/m2
-  std::vector<Rgb> irradiance_added;  // a row a patch: what the last pass added to it
-  std::vector<Rgb> coarse;  // a row a patch: irradiance as the coarse solution forecasts it, all bounces
-  std::vector<float> coarse_error;  // a row a patch: its standard error, W/m2 (luminance)
-  float mean_radiosity = 0;         // of the coarse solution, reflected light only, W/m2 (largest channel)
-  std::vector<uint32_t> fresh;      // elements that the last round made
-  uint64_t direct_ray_count = 0;
-  uint64_t transport_ray_count = 0;  // probes, rows and the aimed rays of pass 2, or rays of shots
-  std::vector<uint32_t> shots;       // shooting: a row a patch, how often it was the shooter; else empty
-  double shot_power = 0;             // shooting: what all shots added, as PassReport has it, channels summed
-  Rgb ambient{0};  // shooting: irradiance that pictures add everywhere as a guess of what is unshot, W/m2
-  uint64_t factor_count = 0;  // form factors that the steps so far took, each estimate of one counted
-  bool frozen = false;        // the mesh is final
-  std::vector<RoundReport> rounds;
-  std::vector<PassReport> passes;
-  Seconds seconds;
+  std::shared_ptr<const Surfaces> surfaces;
+  SolverSettings settings;
+  std::shared_ptr<Workers> workers;
+  Mesh mesh;
+  Transport transport;
+  Irradiance light;
+  Log log;
+  std::optional<ShootingState> shooting;
 };
 
-// Starting meshes, the rows of all patches and a coarse solution on them. Faces must be valid (the loader's
-// work).
-Solution make_solution(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+// Starting meshes, the rows of all patches and a coarse solution on them. Workers: those that all later steps
+// run on, too.
+Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSettings& settings,
+                       std::shared_ptr<Workers> workers = current_workers());
 
 // One refinement round: splits where neighbours differ; false once nothing splits (then nothing has changed).
-bool refine(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+bool refine(Solution& solution);
 
 // The mesh is final from here on: casts more rays where shadow edges lie, shares out the corners of the
 // elements and sets B = E, before pass 1.
-void freeze(Solution& solution, const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+void freeze(Solution& solution);
 
 // One pass: adds the next bounce; freezes the mesh if that was not done.
-const PassReport& advance(Solution& solution, const FaceTable& faces, const Tracer& tracer,
-                          const SolverSettings& settings);
+const PassReport& advance(Solution& solution);
 
 // True once the last pass added less than the share `until` of what pass 1 added: of its largest radiosity,
 // and of its power. Beside a small bright spot the first alone would leave a dim room short of its last
 // bounces.
-bool is_converged(const Solution& solution, const SolverSettings& settings);
-
-// One shot of the solver `shooting`: the patch with the most unshot power sends it to all elements. The same
-// arguments; unshot columns hold what was received and not sent on.
-const PassReport& advance_shot(Solution& solution, const FaceTable& faces, const Tracer& tracer,
-                               const SolverSettings& settings);
-// True once less than the share `until` of what all shots brought is left unshot.
-bool is_shot(const Solution& solution, const SolverSettings& settings);
-
-// The solver `matrix`: the converged solution on the frozen mesh at once. Throws std::domain_error where
-// light never dies, as in a closed room of reflectance 1.
-const PassReport& solve_matrix(Solution& solution, const FaceTable& faces, const Tracer& tracer,
-                               const SolverSettings& settings);
-bool is_solved(const Solution& solution, const SolverSettings& settings);
+bool is_converged(const Solution& solution);
 
 // Radiosity at the vertices of the elements after the passes so far, W/m2: what the smooth picture shows.
-std::vector<Rgb> vertex_radiosity(const Solution& solution, const FaceTable& faces);
+// ambient: irradiance that is added everywhere, as find_ambient() guesses it.
+std::vector<Rgb> vertex_radiosity(const Solution& solution, Rgb ambient = Rgb(0));
 // The same as a converged guess before pass 1, from the coarse solution: for choosing an exposure.
-std::vector<Rgb> vertex_radiosity_forecast(const Solution& solution, const FaceTable& faces);
+std::vector<Rgb> vertex_radiosity_forecast(const Solution& solution);
+// A guess of what the light that no shot has sent yet will bring, W/m2; 0 where no shots are.
+Rgb find_ambient(const Solution& solution);
 
-// Irradiance of each element after the passes so far, W/m2: its direct light and the patches' surface at its
-// centre.
+// What a picture is taken of: make_film(make_scenery(solution), view, settings) (film.h). Refers to the
+// solution.
+Scenery make_scenery(const Solution& solution);
+
+// Irradiance of each element after the passes so far, W/m2.
 std::vector<Rgb> element_irradiance(const Solution& solution);
 
 // Where the power went, after the passes so far.
-PowerLedger find_power_ledger(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
-                              const SolverSettings& settings);
-
-// The rows of the patches, for kernels that gather.
-Rows get_rows(const Solution& solution, const FaceTable& faces, const Tracer& tracer,
-              const SolverSettings& settings);
+PowerLedger find_power_ledger(const Solution& solution);
 
 // 64-bit hash of all element radiosities: equal runs have equal hashes.
 uint64_t find_solution_hash(const Solution& solution);
 
-// Elements that the settings ask for before any split; may exceed 2^32. For limits, before any memory is
-// taken.
-uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings);
-// Bytes that a solve with these settings will hold at its peak, an upper estimate.
-uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
 // Bytes that the tables hold now.
 uint64_t count_bytes(const Solution& solution);
 

@@ -7,6 +7,7 @@
 #include "linear_system.h"
 #include "polygon_factors.h"
 #include "solution.h"
+#include "solvers.h"
 
 #include <algorithm>
 #include <cassert>
@@ -84,56 +85,56 @@ Channel make_channel(const PatchTable& elements, std::span<const double> area, c
 
 }  // namespace
 
-FactorTable find_element_factors(const Solution& s, const FaceTable& faces, const Tracer& tracer,
-                                 const SolverSettings& settings) {
-  const FaceTable cells = make_element_faces(s.elements, faces, s.frames);
+FactorTable find_element_factors(const Solution& s) {
+  const FaceTable cells = make_element_faces(s.mesh.elements, s.surfaces->faces, s.surfaces->frames);
   const FactorScene scene = make_factor_scene(cells, cells.size());
   FactorTable factors = make_factor_table(scene, cells.size());
-  while (advance(factors, scene, cells, tracer, {.seed = settings.seed})) {
+  while (extend_factors(factors, scene, cells, s.surfaces->tracer, {.seed = s.settings.seed})) {
   }
   return factors;
 }
 
-const PassReport& solve_matrix(Solution& s, const FaceTable& faces, const Tracer& tracer,
-                               const SolverSettings& settings) {
+const PassReport& solve_matrix(Solution& s) {
+  const WorkersScope scope(s.workers);
   Stopwatch watch;
-  if (!s.frozen) freeze(s, faces, tracer, settings);
-  const size_t n = s.elements.size();
-  const FactorTable factors = find_element_factors(s, faces, tracer, settings);
-  s.seconds.trace += watch.read();
-  s.factor_count += uint64_t{n} * n;
-  s.transport_ray_count += factors.ray_count;
+  if (!s.mesh.frozen) freeze(s);
+  const FaceTable& faces = s.surfaces->faces;
+  const size_t n = s.mesh.elements.size();
+  const FactorTable factors = find_element_factors(s);
+  s.log.trace_seconds += watch.lap();
+  s.log.factor_count += uint64_t{n} * n;
+  s.log.transport_ray_count += factors.ray_count;
 
   std::vector<double> area(n), matrix;
-  for (size_t i = 0; i < n; ++i) area[i] = factors.area[i] * double{s.elements.exposed[i]};
+  for (size_t i = 0; i < n; ++i) area[i] = factors.area[i] * double{s.mesh.elements.exposed[i]};
   Channel before;
   for (int k = 0; k < 3; ++k) {
-    Channel channel = make_channel(s.elements, area, faces, k);
+    Channel channel = make_channel(s.mesh.elements, area, faces, k);
     if (k > 0 && channel.root == before.root && channel.emission == before.emission)
       channel.irradiance = before.irradiance;
     else if (!solve_channel(channel, matrix, factors, area))
       throw std::domain_error("the system of equations has no solution");
-    for (size_t i = 0; i < n; ++i) s.direct[i][k] = static_cast<float>(channel.irradiance[i]);
+    for (size_t i = 0; i < n; ++i) s.light.sharp[i][k] = static_cast<float>(channel.irradiance[i]);
     before = std::move(channel);
   }
 
   PassReport report;
-  report.pass = static_cast<uint32_t>(s.passes.size()) + 1;
+  report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
   report.ray_count = factors.ray_count;
   for (size_t row = 0; row < n; ++row) {
-    const uint32_t face = s.elements.face[row];
-    s.elements.radiosity[row] = faces.emission[face] + faces.reflectance[face] * s.direct[row];
-    s.elements.unshot[row] = Rgb(0);
+    const uint32_t face = s.mesh.elements.face[row];
+    s.mesh.elements.radiosity[row] = faces.emission[face] + faces.reflectance[face] * s.light.sharp[row];
+    s.mesh.elements.unshot[row] = Rgb(0);
   }
   report_added(report, s,
-               [&](size_t row) { return faces.reflectance[s.elements.face[row]] * s.direct[row]; });
-  s.patches.radiosity = find_patch_means(s, s.elements.radiosity);
-  std::fill(s.patches.unshot.begin(), s.patches.unshot.end(), Rgb(0));
-  report.seconds = watch.read();
-  s.seconds.solve += report.seconds;
-  return s.passes.emplace_back(report);
+               [&](size_t row) { return faces.reflectance[s.mesh.elements.face[row]] * s.light.sharp[row]; });
+  s.mesh.patches.radiosity = find_patch_means(s, s.mesh.elements.radiosity);
+  std::fill(s.mesh.patches.unshot.begin(), s.mesh.patches.unshot.end(), Rgb(0));
+  report.seconds = watch.lap();
+  s.log.solve_seconds += report.seconds;
+  return s.log.passes.emplace_back(report);
 }
 
-bool is_solved(const Solution& s, const SolverSettings&) { return !s.passes.empty(); }
+bool is_solved(const Solution& s) { return !s.log.passes.empty(); }
 
 }  // namespace patchlight

@@ -2,7 +2,6 @@
 #include "solvers.h"
 
 #include "forecast.h"
-#include "solution.h"
 
 namespace patchlight {
 namespace {
@@ -17,12 +16,45 @@ constexpr uint64_t kMatrixPatches = 3000;
 constexpr uint64_t kShootingPatches = 6000;
 
 constexpr Solver kSolvers[] = {
-    {"passes", "pass", "bounce by bounce: after pass k, all light of up to k reflections", advance,
-     is_converged, forecast_no_bytes, forecast_no_seconds, kAnyCount},
-    {"shooting", "shot", "progressive refinement: the brightest patch sends its light first", advance_shot,
-     is_shot, forecast_no_bytes, forecast_shooting_seconds, kShootingPatches},
-    {"matrix", "solution", "all form factors, then the whole linear system at once", solve_matrix, is_solved,
-     forecast_matrix_bytes, forecast_matrix_seconds, kMatrixPatches},
+    {.name = "passes",
+     .step = "pass",
+     .summary = "bounce by bounce: after pass k, all light of up to k reflections",
+     .advance = advance,
+     .is_converged = is_converged,
+     .forecast_bytes = forecast_no_bytes,
+     .forecast_seconds = forecast_no_seconds,
+     .patch_count_usual = kAnyCount,
+     .goes_by_bounces = true,
+     .takes_one_step = false,
+     .chooses_steps = false,
+     .leaves_unshot = false,
+     .digits = 2},
+    {.name = "shooting",
+     .step = "shot",
+     .summary = "progressive refinement: the brightest patch sends its light first",
+     .advance = advance_shot,
+     .is_converged = is_shot,
+     .forecast_bytes = forecast_no_bytes,
+     .forecast_seconds = forecast_shooting_seconds,
+     .patch_count_usual = kShootingPatches,
+     .goes_by_bounces = false,
+     .takes_one_step = false,
+     .chooses_steps = true,
+     .leaves_unshot = true,
+     .digits = 6},
+    {.name = "matrix",
+     .step = "solution",
+     .summary = "all form factors, then the whole linear system at once",
+     .advance = solve_matrix,
+     .is_converged = is_solved,
+     .forecast_bytes = forecast_matrix_bytes,
+     .forecast_seconds = forecast_matrix_seconds,
+     .patch_count_usual = kMatrixPatches,
+     .goes_by_bounces = false,
+     .takes_one_step = true,
+     .chooses_steps = false,
+     .leaves_unshot = false,
+     .digits = 2},
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Elements and what they send to nodes of their trees.
 #include "sources.h"
 
+#include "cell.h"
+
 #include <algorithm>
 #include <queue>
 
@@ -13,8 +15,10 @@ constexpr double kBrightOverMean = 3;
 
 }  // namespace
 
-SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
-                         std::span<const Rgb> sent, uint32_t count) {
+SourceTable make_sources(const PatchTable& elements, const Surfaces& surfaces, std::span<const Rgb> sent,
+                         uint32_t count) {
+  const FaceTable& faces = surfaces.faces;
+  const FaceFrameTable& frames = surfaces.frames;
   std::vector<double> flux_before(elements.size() + 1, 0), square_before(elements.size() + 1, 0);
   double area = 0;
   for (size_t row = 0; row < elements.size(); ++row) {

@@ -1,7 +1,7 @@
 // What elements send to the bright places that a pass aims at.
 #pragma once
 
-#include "quadtree.h"
+#include "surfaces.h"
 
 #include <span>
 
@@ -9,7 +9,7 @@ namespace patchlight {
 
 // Bright places to aim at: nodes of the element trees that send more than three times the scene's mean, about
 // `count` of them, always the node of most flux split first.
-SourceTable make_sources(const PatchTable& elements, const FaceTable& faces, const FaceFrameTable& frames,
-                         std::span<const Rgb> sent, uint32_t count);
+SourceTable make_sources(const PatchTable& elements, const Surfaces& surfaces, std::span<const Rgb> sent,
+                         uint32_t count);
 
 }  // namespace patchlight

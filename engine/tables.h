@@ -91,7 +91,7 @@ struct VertexTable {
 
 // Lamps that each polygon aims at (rays from its elements to points on the lamp). All other emission its
 // patches meet by their rows.
-struct AimTable {
+struct LightListTable {
   std::vector<uint32_t> list_of;     // a row a polygon; polygons whose patches share a receiver have one list
   std::vector<uint32_t> list_first;  // CSR: list -> lamps (faces), ascending, at most kAimedLampsMax
   std::vector<uint32_t> lamp;

@@ -9,6 +9,8 @@
 namespace patchlight {
 
 constexpr uint32_t kPacketSize = 16;
+// Embree takes coordinates up to here, in lengths.
+constexpr float kTracedCoordinateMax = 1.8e18f;
 
 // Sixteen rays; the layout is Embree's own (checked in tracer.cpp), so that nothing is copied.
 struct alignas(64) RayPacket {
@@ -28,6 +30,7 @@ struct alignas(64) HitPacket {
   uint32_t face[16];  // kNone: nothing hit
   uint32_t geometry[16];
   uint32_t instance[16];
+  uint32_t instance_primitive[16];  // Embree 4.3 and later write it
 };
 
 struct TracerState;

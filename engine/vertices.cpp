@@ -166,9 +166,11 @@ VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames
   return table;
 }
 
-std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves,
-                             const FaceFrameTable& frames, std::span<const Rgb> leaf_values,
+std::vector<Rgb> reconstruct(const LeafSurface& surface, std::span<const Rgb> leaf_values,
                              const ReconstructSettings& settings) {
+  const VertexTable& vertices = surface.vertices;
+  const PatchTable& leaves = surface.leaves;
+  const FaceFrameTable& frames = surface.frames;
   assert(leaf_values.size() == leaves.size());
   std::vector<Rgb> values(vertices.size(), Rgb(0)), low(vertices.size()), high(vertices.size());
   const auto leaf_weight = [&](uint32_t leaf) { return leaves.exposed[leaf] * leaves.exposed[leaf]; };

@@ -16,15 +16,22 @@ struct ReconstructSettings {
   uint32_t border_steps = 2;
 };
 
+// Leaves with their corners.
+struct LeafSurface {
+  const VertexTable& vertices;
+  const PatchTable& leaves;
+  const FaceFrameTable& frames;
+};
+
 // Values at vertices from values of leaves, both W/m2. Leaves count by the square of their exposed share.
 // Values stay within the range of the leaves around an inner vertex, and >= 0 everywhere.
-std::vector<Rgb> reconstruct(const VertexTable& vertices, const PatchTable& leaves,
-                             const FaceFrameTable& frames, std::span<const Rgb> leaf_values,
+std::vector<Rgb> reconstruct(const LeafSurface& surface, std::span<const Rgb> leaf_values,
                              const ReconstructSettings& settings);
 
 // The surface's value at (u, v) of the face of leaf `row`, which must hold that point.
-inline Rgb sample_surface(const VertexTable& vertices, const PatchTable& leaves, const FaceFrameTable& frames,
-                          std::span<const Rgb> vertex_values, uint32_t row, Vec2 uv) {
+inline Rgb sample_surface(const LeafSurface& surface, std::span<const Rgb> vertex_values, uint32_t row,
+                          Vec2 uv) {
+  const auto& [vertices, leaves, frames] = surface;
   const bool triangle = frames.triangle[leaves.face[row]];
   const CellFrame cell = make_cell_frame(triangle, leaves.cell[row], leaves.level[row]);
   const Vec2 st = (uv - cell.origin) / cell.size;

@@ -212,23 +212,17 @@ inline void split_at_random(PatchTable& leaves, const FaceFrameTable& frames, co
   }
 }
 
-struct Run {
-  Tracer tracer;
-  Solution solution;
-};
-
 // The mesh of a scene with all its rounds, and `pass_count` passes.
-inline Run run_scene(const FaceTable& faces, const SolverSettings& settings, uint32_t pass_count) {
-  Tracer tracer = make_tracer(faces);
-  Solution solution = make_solution(faces, tracer, settings);
-  while (refine(solution, faces, tracer, settings)) {
+inline Solution solve_scene(const FaceTable& faces, const SolverSettings& settings, uint32_t pass_count) {
+  Solution solution = make_solution(make_surfaces(faces), settings);
+  while (refine(solution)) {
   }
-  while (solution.passes.size() < pass_count) advance(solution, faces, tracer, settings);
-  return {std::move(tracer), std::move(solution)};
+  while (solution.log.passes.size() < pass_count) advance(solution);
+  return solution;
 }
 
-inline void advance_to(Run& run, const FaceTable& faces, const SolverSettings& settings, uint32_t pass) {
-  while (run.solution.passes.size() < pass) advance(run.solution, faces, run.tracer, settings);
+inline void advance_to(Solution& solution, uint32_t pass) {
+  while (solution.log.passes.size() < pass) advance(solution);
 }
 
 // Sums over the elements of the polygons [first, last): exposed area times a column.
@@ -236,20 +230,21 @@ template <typename Column>
 DRgb polygon_power(const Solution& s, const FaceTable& faces, uint32_t first, uint32_t last,
                    const Column& column) {
   DRgb sum(0);
-  for (size_t row = 0; row < s.elements.size(); ++row) {
-    const uint32_t polygon = faces.polygon[s.elements.face[row]];
+  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
+    const uint32_t polygon = faces.polygon[s.mesh.elements.face[row]];
     if (polygon >= first && polygon < last)
-      sum += double{s.elements.area[row]} * s.elements.exposed[row] * DRgb(column[row]);
+      sum += double{s.mesh.elements.area[row]} * s.mesh.elements.exposed[row] * DRgb(column[row]);
   }
   return sum;
 }
 inline double exposed_area(const Solution& s, const FaceTable& faces, uint32_t first, uint32_t last) {
-  return polygon_power(s, faces, first, last, std::vector<Rgb>(s.elements.size(), Rgb(1))).g;
+  return polygon_power(s, faces, first, last, std::vector<Rgb>(s.mesh.elements.size(), Rgb(1))).g;
 }
 
 // Mean green radiosity over the exposed area of the polygons [first, last), or of one.
 inline double mean_radiosity(const Solution& s, const FaceTable& faces, uint32_t first, uint32_t last) {
-  return polygon_power(s, faces, first, last, s.elements.radiosity).g / exposed_area(s, faces, first, last);
+  return polygon_power(s, faces, first, last, s.mesh.elements.radiosity).g /
+         exposed_area(s, faces, first, last);
 }
 inline double mean_radiosity(const Solution& s, const FaceTable& faces, uint32_t polygon) {
   return mean_radiosity(s, faces, polygon, polygon + 1);

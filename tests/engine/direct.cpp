@@ -1,7 +1,8 @@
 #include "engine/direct.h"
 
-#include "engine/aims.h"
+#include "engine/face_links.h"
 #include "engine/lambert.h"
+#include "engine/light_lists.h"
 #include "engine/receivers.h"
 #include "engine/rows.h"
 #include "tests/scenes.h"
@@ -18,12 +19,9 @@ namespace {
 // One quad at y = 0 that looks up, in elements of one level, each its own patch, and whatever else is above
 // it.
 struct Stage {
-  FaceTable faces;
-  FaceFrameTable frames;
-  FaceLinkTable links;
+  std::shared_ptr<const Surfaces> surfaces;
   PatchTable elements;
-  std::vector<uint32_t> element_patch;
-  AimTable aims;
+  LightListTable lists;
   std::vector<Rgb> irradiance;
   std::vector<float> error;
   LampViewTable views;
@@ -37,27 +35,23 @@ FaceTable make_floor() {
 }
 
 // With a receiver, and so a list of lamps, for each of them.
-AimTable aim_all(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches) {
-  return make_aims(faces, frames, patches, make_single_receivers(patches, faces, frames));
+LightListTable list_all(const Surfaces& surfaces, const PatchTable& patches) {
+  return make_light_lists(surfaces, patches, make_single_receivers(patches, surfaces));
 }
 
 Stage light_stage(FaceTable faces, uint32_t level, DirectRays rays, uint64_t seed) {
-  Stage stage{std::move(faces), {}, {}, {}, {}, {}, {}, {}, {}};
-  stage.frames = make_face_frames(stage.faces);
-  stage.links = make_face_links(stage.faces);
-  stage.elements =
-      make_leaves(stage.faces, stage.frames, [&](uint32_t face) { return face == 0 ? level : uint32_t{0}; });
-  stage.element_patch.resize(stage.elements.size());
-  std::iota(stage.element_patch.begin(), stage.element_patch.end(), 0u);
-  stage.aims = aim_all(stage.faces, stage.frames, stage.elements);
+  Stage stage;
+  stage.surfaces = make_surfaces(std::move(faces));
+  stage.elements = make_leaves(stage.surfaces->faces, stage.surfaces->frames,
+                               [&](uint32_t face) { return face == 0 ? level : uint32_t{0}; });
+  stage.lists = list_all(*stage.surfaces, stage.elements);
   stage.irradiance.resize(stage.elements.size());
   stage.error.resize(stage.elements.size());
   stage.views.seen.assign(stage.elements.size(), 0);
   stage.views.hidden.assign(stage.elements.size(), 0);
   stage.views.settled.assign(stage.elements.size(), 0);
-  const Tracer tracer = make_tracer(stage.faces);
-  stage.ray_count = find_direct({stage.irradiance, stage.error, stage.views}, stage.element_patch,
-                                stage.elements, stage.aims, stage.faces, stage.frames, tracer, rays, seed);
+  stage.ray_count = find_direct({stage.irradiance, stage.error, stage.views}, all_rows(stage.elements.size()),
+                                {*stage.surfaces, stage.elements, stage.lists}, rays, seed);
   return stage;
 }
 
@@ -67,7 +61,7 @@ double find_exact_mean(const Stage& stage, uint32_t row, std::span<const Vec3> l
   double sum = 0;
   for (int k = 0; k < 256; ++k) {
     const Vec2 p((static_cast<float>(k % 16) + 0.5f) / 16, (static_cast<float>(k / 16) + 0.5f) / 16);
-    const Vec3 point = face_point(stage.frames, 0, cell_sample(false, cell, p));
+    const Vec3 point = face_point(stage.surfaces->frames, 0, cell_sample(false, cell, p));
     sum += find_point_form_factor(DVec3(point), {0, 1, 0}, lamp);
   }
   return sum / 256;
@@ -122,7 +116,7 @@ TEST_CASE("direct light behind a half screen is half of the closed form in the m
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     const Stage stage = light_stage(faces, 5, {64, 256}, seed);
     for (uint32_t row = 0; row < 1024; ++row) {
-      const float x = cell_centre(stage.frames, 0, stage.elements.cell[row], 5).x;
+      const float x = cell_centre(stage.surfaces->frames, 0, stage.elements.cell[row], 5).x;
       const double exact = find_exact_mean(stage, row, lamp);
       if (x < 0.38f) REQUIRE(stage.irradiance[row] == Rgb(0));
       if (x > 0.62f) inside += stage.irradiance[row].g, exact_inside += exact;
@@ -167,38 +161,38 @@ TEST_CASE("lamps that cannot reach an element are not aimed at: behind, below, o
            make_surface(1, 0));  // above, looks up
   add_quad(faces, {0.4f, 1, 0.4f}, {0.5f, 1, 0.4f}, {0.5f, 1, 0.5f}, {0.4f, 1, 0.5f},
            make_surface(1, 0));  // lights
-  const FaceFrameTable frames = make_face_frames(faces);
-  const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  const AimTable aims = aim_all(faces, frames, patches);
-  REQUIRE(aims.list_first.size() == faces.size() + 1);
-  CHECK(aims.list_first[1] - aims.list_first[0] == 1);
-  CHECK(is_aimed(aims, 0, 3));
-  CHECK(!is_aimed(aims, 0, 0));
-  CHECK(!is_aimed(aims, 0, 2));
+  const auto surfaces = make_surfaces(faces);
+  const PatchTable patches = make_leaves(faces, surfaces->frames, [](uint32_t) { return 2u; });
+  const LightListTable lists = list_all(*surfaces, patches);
+  REQUIRE(lists.list_first.size() == faces.size() + 1);
+  CHECK(lists.list_first[1] - lists.list_first[0] == 1);
+  CHECK(is_aimed(lists, 0, 3));
+  CHECK(!is_aimed(lists, 0, 0));
+  CHECK(!is_aimed(lists, 0, 2));
 }
 
-TEST_CASE("a polygon aims at the strongest 64 of many lamps, in order") {
+TEST_CASE("a polygon lists at the strongest 64 of many lamps, in order") {
   FaceTable faces = make_floor();
   for (int k = 0; k < 100; ++k) {
     const float x = static_cast<float>(k % 10) / 10, z = static_cast<float>(k / 10) / 10;
     add_quad(faces, {x, 2, z}, {x + 0.01f, 2, z}, {x + 0.01f, 2, z + 0.01f}, {x, 2, z + 0.01f},
              make_surface(1 + 100 * static_cast<float>(k % 3 == 0), 0));
   }
-  const FaceFrameTable frames = make_face_frames(faces);
-  const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 0u; });
-  const AimTable aims = aim_all(faces, frames, patches);
-  REQUIRE(aims.list_first[1] == kAimedLampsMax);
-  CHECK(std::is_sorted(aims.lamp.begin(), aims.lamp.begin() + kAimedLampsMax));
+  const auto surfaces = make_surfaces(faces);
+  const PatchTable patches = make_leaves(faces, surfaces->frames, [](uint32_t) { return 0u; });
+  const LightListTable lists = list_all(*surfaces, patches);
+  REQUIRE(lists.list_first[1] == kAimedLampsMax);
+  CHECK(std::is_sorted(lists.lamp.begin(), lists.lamp.begin() + kAimedLampsMax));
   for (uint32_t lamp = 1; lamp <= 100; ++lamp)
-    if ((lamp - 1) % 3 == 0) CHECK(is_aimed(aims, 0, lamp));
+    if ((lamp - 1) % 3 == 0) CHECK(is_aimed(lists, 0, lamp));
 }
 
 TEST_CASE("a polygon whose sky is full of lamps leaves them all to its rows") {
   FaceTable faces;
   add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, 0.5f)));
-  const FaceFrameTable frames = make_face_frames(faces);
-  const PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  CHECK(aim_all(faces, frames, patches).lamp.empty());
+  const auto surfaces = make_surfaces(faces);
+  const PatchTable patches = make_leaves(faces, surfaces->frames, [](uint32_t) { return 2u; });
+  CHECK(list_all(*surfaces, patches).lamp.empty());
 }
 
 TEST_CASE("settled lamps cast no rays and change nothing") {
@@ -209,15 +203,15 @@ TEST_CASE("settled lamps cast no rays and change nothing") {
       {}, {});
   Stage stage = light_stage(faces, 5, {16, 64}, 1);
   for (uint32_t row = 0; row < 1024; ++row)
-    stage.views.settled[row] = find_settled(stage.views, stage.elements, stage.frames, stage.links, row);
+    stage.views.settled[row] =
+        find_settled(stage.views, stage.elements, stage.surfaces->frames, stage.surfaces->links, row);
   const auto settled_count = std::count(stage.views.settled.begin(), stage.views.settled.begin() + 1024, 1);
   CHECK(settled_count > 700);
   CHECK(settled_count < 1024);
   std::vector<Rgb> irradiance(stage.elements.size());
   std::vector<float> error(stage.elements.size());
-  const Tracer tracer = make_tracer(faces);
-  const uint64_t rays = find_direct({irradiance, error, stage.views}, stage.element_patch, stage.elements,
-                                    stage.aims, stage.faces, stage.frames, tracer, {16, 64}, 1);
+  const uint64_t rays = find_direct({irradiance, error, stage.views}, all_rows(stage.elements.size()),
+                                    {*stage.surfaces, stage.elements, stage.lists}, {16, 64}, 1);
   CHECK(irradiance == stage.irradiance);
   CHECK(error == stage.error);
   CHECK(rays == stage.ray_count - 16 * static_cast<uint64_t>(settled_count));
@@ -245,24 +239,23 @@ TEST_CASE("the inherited state of a refined scene is what a full computation of 
   add_box_outward(faces, {0.55f, -0.01f, 0.3f}, {0.8f, 0.5f, 0.6f}, make_surface(0, 0.4f));
   fit_scene(faces);
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 0);
-  Solution& s = run.solution;
-  CHECK(s.rounds.size() > 2);
-  std::vector<uint32_t> rows(s.elements.size());
+  const Solution s = solve_scene(faces, settings, 0);
+  CHECK(s.log.rounds.size() > 2);
+  std::vector<uint32_t> rows(s.mesh.elements.size());
   std::iota(rows.begin(), rows.end(), 0u);
   std::vector<Rgb> irradiance(rows.size());
   std::vector<float> error(rows.size());
   LampViewTable views;
   views.seen.assign(rows.size(), 0), views.hidden.assign(rows.size(), 0),
       views.settled.assign(rows.size(), 0);
-  find_direct({irradiance, error, views}, rows, s.elements, s.aims, faces, s.frames, run.tracer,
+  find_direct({irradiance, error, views}, rows, {*s.surfaces, s.mesh.elements, s.transport.light_lists},
               {16, settings.rays / 4}, settings.seed);
   size_t different = 0;
   double power = 0, difference = 0;
   for (uint32_t row = 0; row < rows.size(); ++row) {
-    different += irradiance[row] != s.direct[row];
-    power += double{s.elements.area[row]} * irradiance[row].g;
-    difference += double{s.elements.area[row]} * std::abs(irradiance[row].g - s.direct[row].g);
+    different += irradiance[row] != s.light.direct[row];
+    power += double{s.mesh.elements.area[row]} * irradiance[row].g;
+    difference += double{s.mesh.elements.area[row]} * std::abs(irradiance[row].g - s.light.direct[row].g);
   }
   // Sixteen rays and four neighbours' sixteen may agree and miss a shadow's very edge, in few places of
   // little area.
@@ -274,18 +267,22 @@ TEST_CASE("the exposed share of elements: all, none, or as many of sixteen point
   FaceTable faces;
   add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces({}));
   add_box_outward(faces, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, {});
-  const FaceFrameTable frames = make_face_frames(faces);
-  const Tracer tracer = make_tracer(faces);
-  PatchTable patches = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 2u : 0u; });
+  const auto surfaces = make_surfaces(faces);
+  const FaceFrameTable& frames = surfaces->frames;
+  Mesh mesh;
+  mesh.patches = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 2u : 0u; });
+  mesh.patch_index = make_leaf_index(mesh.patches);
+  const ReceiverTable receivers = make_single_receivers(mesh.patches, *surfaces);
   HitTable hits;
-  cast_rows(hits, patches, all_rows(patches.size()), make_leaf_index(patches),
-            make_single_receivers(patches, faces, frames), faces, frames, tracer, {});
-  PatchTable elements = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 4u : 0u; });
-  const auto first = find_union_ranges(patches, elements);
-  std::vector<uint32_t> element_patch(elements.size()), rows(elements.size());
-  for (uint32_t p = 0; p < patches.size(); ++p)
-    for (uint32_t row = first[p]; row < first[p + 1]; ++row) element_patch[row] = p, rows[row] = row;
-  find_exposed(elements, rows, element_patch, patches, faces, frames, tracer, 1);
+  cast_rows(hits, mesh.patches.exposed, all_rows(mesh.patches.size()),
+            {*surfaces, mesh.patches, mesh.patch_index, receivers, make_ray_grid(256)}, true);
+  mesh.elements = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 4u : 0u; });
+  const auto first = find_union_ranges(mesh.patches, mesh.elements);
+  mesh.element_patch.resize(mesh.elements.size());
+  for (uint32_t p = 0; p < mesh.patches.size(); ++p)
+    for (uint32_t row = first[p]; row < first[p + 1]; ++row) mesh.element_patch[row] = p;
+  find_exposed(mesh, all_rows(mesh.elements.size()), *surfaces, 1);
+  const PatchTable& elements = mesh.elements;
   double exposed = 0;
   for (uint32_t row = 0; row < 256; ++row) {
     const Vec3 c = cell_centre(frames, 0, elements.cell[row], 4);

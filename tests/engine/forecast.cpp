@@ -1,6 +1,7 @@
 // Forecasts against solves: within a factor of two or so, and growing with what is asked.
 #include "engine/forecast.h"
 
+#include "engine/sizes.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
@@ -40,16 +41,20 @@ TEST_CASE("a forecast is near what a solve makes, casts and holds") {
     settings.rays = 16;
     settings.pass_count_max = 2;
     settings.until = 0;
-    const Run run = run_scene(faces, settings, 2);
-    const Solution& s = run.solution;
+    const Solution run = solve_scene(faces, settings, 2);
+    const Solution& s = run;
     const Forecast forecast = forecast_solve(faces, settings, count_starting_patches(faces, settings));
     CAPTURE(forecast.elements);
-    CAPTURE(s.elements.size());
+    CAPTURE(s.mesh.elements.size());
     CAPTURE(forecast.patches);
-    CAPTURE(s.patches.size());
+    CAPTURE(s.mesh.patches.size());
     // As far off as it was for any scene that it was fitted to.
-    CHECK(within_factor(forecast.elements, static_cast<double>(s.elements.size()), 2.5));
-    CHECK(within_factor(forecast.patches, static_cast<double>(s.patches.size()), 2.5));
+    CHECK(within_factor(forecast.elements, static_cast<double>(s.mesh.elements.size()), 2.5));
+    CHECK(within_factor(forecast.patches, static_cast<double>(s.mesh.patches.size()), 2.5));
+    CAPTURE(forecast.rays);
+    const uint64_t rays = s.log.direct_ray_count + s.log.transport_ray_count;
+    CAPTURE(rays);
+    CHECK(within_factor(forecast.rays, static_cast<double>(rays), 2.5));
     // At its largest it holds more than at its end.
     CHECK(forecast.bytes > static_cast<double>(count_bytes(s)) / 1.5);
     CHECK(forecast.bytes < static_cast<double>(count_bytes(s)) * 4);

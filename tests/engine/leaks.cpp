@@ -23,8 +23,8 @@ FaceTable make_room_without_left() {
 LeakReport find_leaks_of(FaceTable faces) {
   fit_scene(faces);
   const SolverSettings settings{.patch_count_max = 4000};
-  const Run run = run_scene(faces, settings, 0);
-  return find_leaks(run.solution, faces, run.tracer, 1);
+  const Solution run = solve_scene(faces, settings, 0);
+  return find_leaks(run);
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ FaceTable make_lit_room() {
 
 TEST_CASE("ledger: before the first pass all power is unshot") {
   const FaceTable faces = make_lit_room();
-  Run run = run_scene(faces, {}, 0);
-  freeze(run.solution, faces, run.tracer, {});
-  const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, {});
+  Solution run = solve_scene(faces, {}, 0);
+  freeze(run);
+  const PowerLedger ledger = find_power_ledger(run);
   CHECK(ledger.unshot == ledger.emitted);
   CHECK(ledger.closure_error == 0);
   double emitted = 0;
@@ -35,11 +35,11 @@ TEST_CASE("ledger: before the first pass all power is unshot") {
 TEST_CASE("ledger: it closes within 3e-3 at the defaults after every pass") {
   const FaceTable faces = make_lit_room();
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 0);
+  Solution run = solve_scene(faces, settings, 0);
   for (const uint32_t pass : {1u, 2u, 3u, 16u}) {
     CAPTURE(pass);
-    advance_to(run, faces, settings, pass);
-    const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, settings);
+    advance_to(run, pass);
+    const PowerLedger ledger = find_power_ledger(run);
     // What the project promises.
     CHECK(ledger.closure_error <= 3e-3);
     // The room is closed: only origins a millionth off their surface, where two meet, may look out.
@@ -56,25 +56,25 @@ TEST_CASE("ledger: without lamps everything is zero and nothing divides by it") 
   add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(0, 0.5f)));
   fit_scene(faces);
   const SolverSettings settings;
-  const Run run = run_scene(faces, settings, 2);
-  const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, settings);
+  const Solution run = solve_scene(faces, settings, 2);
+  const PowerLedger ledger = find_power_ledger(run);
   CHECK(ledger.emitted == DRgb(0));
   CHECK(ledger.absorbed == DRgb(0));
   CHECK(ledger.closure_error == 0);
-  CHECK(is_converged(run.solution, settings));
+  CHECK(is_converged(run));
 }
 
 TEST_CASE("ledger: a lone lamp loses all of its power, a back side takes what it meets") {
   FaceTable faces;
   add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, make_surface(2, 0.5f));
   const SolverSettings settings;
-  const Run lone = run_scene(faces, settings, 1);
-  const PowerLedger all = find_power_ledger(lone.solution, faces, lone.tracer, settings);
+  const Solution lone = solve_scene(faces, settings, 1);
+  const PowerLedger all = find_power_ledger(lone);
   CHECK(all.escaped.g == doctest::Approx(2).epsilon(1e-6));
   CHECK(all.absorbed.g == 0);
   add_quad(faces, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}, {});
-  const Run covered = run_scene(faces, settings, 1);
-  const PowerLedger ledger = find_power_ledger(covered.solution, faces, covered.tracer, settings);
+  const Solution covered = solve_scene(faces, settings, 1);
+  const PowerLedger ledger = find_power_ledger(covered);
   // Howell C-11; 65536 rays.
   CHECK(std::abs(ledger.absorbed.g / 2 - 0.199824895698) <= 4 * std::sqrt(0.2 * 0.8 / 65536));
   CHECK(std::abs(ledger.escaped.g / 2 - (1 - 0.199824895698)) <= 4 * std::sqrt(0.2 * 0.8 / 65536));
@@ -86,8 +86,8 @@ TEST_CASE("ledger: power does not depend on how finely the scene is split") {
   for (int fine = 0; fine < 2; ++fine) {
     SolverSettings settings;
     settings.patch_size = fine ? 0.02f : 0.1f;
-    const Run run = run_scene(faces, settings, 8);
-    const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, settings);
+    const Solution run = solve_scene(faces, settings, 8);
+    const PowerLedger ledger = find_power_ledger(run);
     emitted[fine] = ledger.emitted.g, absorbed[fine] = ledger.absorbed.g;
   }
   CHECK(emitted[0] == doctest::Approx(emitted[1]).epsilon(1e-6));

@@ -19,20 +19,18 @@ FaceTable make_room() {
 
 // A floor of 8 x 8 patches, and light on them that steps up by `step` in its right half.
 struct Floor {
-  FaceTable faces;
-  FaceFrameTable frames;
-  FaceLinkTable links;
+  std::shared_ptr<const Surfaces> surfaces;
   PatchTable patches;
   std::vector<float> indirect, total, error;
 };
 Floor make_floor(float step, float noise) {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, make_surface(0, 1));
   Floor f;
-  add_quad(f.faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, make_surface(0, 1));
-  f.frames = make_face_frames(f.faces);
-  f.links = make_face_links(f.faces);
-  f.patches = make_leaves(f.faces, f.frames, [](uint32_t) { return 3u; });
+  f.surfaces = make_surfaces(faces);
+  f.patches = make_leaves(faces, f.surfaces->frames, [](uint32_t) { return 3u; });
   for (uint32_t row = 0; row < f.patches.size(); ++row) {
-    const Vec3 centre = cell_centre(f.frames, 0, f.patches.cell[row], 3);
+    const Vec3 centre = cell_centre(f.surfaces->frames, 0, f.patches.cell[row], 3);
     f.indirect.push_back(1 + (centre.x > 0.5f ? step : 0));
     f.total.push_back(f.indirect.back() + 1);
     f.error.push_back(noise);
@@ -40,25 +38,22 @@ Floor make_floor(float step, float noise) {
   return f;
 }
 std::vector<uint8_t> mark(const Floor& f, uint64_t budget, float size_factor) {
-  return mark_uneven(f.patches, {f.indirect, f.total, f.error}, f.faces, f.frames, f.links, f.links, budget,
-                     size_factor);
+  return mark_uneven(f.patches, {f.indirect, f.total, f.error}, *f.surfaces, {budget, size_factor});
 }
 
 }  // namespace
 
 TEST_CASE("patches: finer in corners, balanced, within the budget") {
   FaceTable faces = make_room();
-  const FaceFrameTable frames = make_face_frames(faces);
-  const FaceLinkTable links = make_face_links(faces);
-  const Tracer tracer = make_tracer(faces);
+  const auto surfaces = make_surfaces(faces);
   for (const uint64_t budget : {6ull, 1000ull, 100000ull}) {
     uint64_t ray_count = 0;
-    const PatchTable patches = make_patches(faces, frames, links, tracer, budget, 1, 1, ray_count);
+    const PatchTable patches = make_patches(*surfaces, {budget}, ray_count);
     CHECK(patches.size() <= budget);
     CHECK(patches.size() >= faces.size());
     for (uint32_t row = 0; row < patches.size(); ++row)
       for (uint32_t edge = 0; edge < 4; ++edge) {
-        const uint32_t other = find_coarse_neighbour(patches, frames, links, row, edge);
+        const uint32_t other = find_coarse_neighbour(patches, surfaces->frames, surfaces->links, row, edge);
         if (other != kNone) CHECK(patches.level[row] - patches.level[other] <= 1);
       }
     if (budget < 100000) continue;
@@ -72,24 +67,19 @@ TEST_CASE("patches: finer in corners, balanced, within the budget") {
 TEST_CASE("patches: no budget is passed for balance") {
   FaceTable faces = make_room();
   add_box_outward(faces, {0.1f, 0, 0.1f}, {0.15f, 0.1f, 0.2f}, make_surface(0, 0.5f));
-  const FaceFrameTable frames = make_face_frames(faces);
-  const FaceLinkTable links = make_face_links(faces);
-  const Tracer tracer = make_tracer(faces);
+  const auto surfaces = make_surfaces(faces);
   for (uint64_t budget = faces.size(); budget < 4000; budget += 97) {
     uint64_t ray_count = 0;
-    CHECK(make_patches(faces, frames, links, tracer, budget, 1, 1, ray_count).size() <= budget);
+    CHECK(make_patches(*surfaces, {budget}, ray_count).size() <= budget);
   }
 }
 
 TEST_CASE("patches: a size factor of a half makes them about four times as many") {
   const FaceTable faces = make_room();
-  const FaceFrameTable frames = make_face_frames(faces);
-  const FaceLinkTable links = make_face_links(faces);
-  const Tracer tracer = make_tracer(faces);
+  const auto surfaces = make_surfaces(faces);
   uint64_t ray_count = 0;
   const auto count = [&](float factor) {
-    return static_cast<double>(
-        make_patches(faces, frames, links, tracer, 1000000, factor, 1, ray_count).size());
+    return static_cast<double>(make_patches(*surfaces, {1000000, factor}, ray_count).size());
   };
   // Sizes are powers of two: each patch may be up to half as large as it could be, with either factor.
   const double ratio = count(0.5f) / count(1);
@@ -99,30 +89,39 @@ TEST_CASE("patches: a size factor of a half makes them about four times as many"
 
 TEST_CASE("a probe tells the mean inverse distance to a parallel wall, and who is buried") {
   FaceTable faces = make_room();
-  const FaceFrameTable frames = make_face_frames(faces);
-  const Tracer tracer = make_tracer(faces);
-  const Probe open = probe_patch(faces, frames, tracer, kFloor, 0, 0, 1, make_row_grid(1024));
+  const auto surfaces = make_surfaces(faces);
+  const auto probe = [](const Surfaces& all, uint32_t rays) {
+    return probe_cell(make_cell_rays(all.faces, {kFloor}, kProbeRays, 1, make_ray_grid(rays)), all);
+  };
+  const Probe open = probe(*surfaces, 1024);
   CHECK(open.ray_count == 1024);
   CHECK(open.hit_count == 1024);
   CHECK(open.buried_count == 0);
   // In a cube of edge a no hit is farther than sqrt(3) a; with cosine density about the floor a fifth of the
   // rays meets the ceiling at a mean cosine of about 0.9 and the others are nearer on average: 1 / distance
   // lies between 1 / (sqrt(3) a) and, rays near the edges apart, a few times 1 / a.
-  const float edge = longest_edge(cell_corners(frames, kFloor, 0, 0));
+  const float edge = longest_edge(cell_corners(surfaces->frames, kFloor, 0, 0));
   const float mean = open.inverse_distance_sum / 1024;
   CHECK(mean > 1 / (std::sqrt(3.0f) * edge));
   CHECK(mean < 20 / edge);
-  add_box_outward(faces, Vec3(-1), Vec3(1), make_surface(0, 0.5f));
-  const FaceFrameTable more = make_face_frames(faces);
-  const Probe buried = probe_patch(faces, more, make_tracer(faces), kFloor, 0, 0, 1, make_row_grid(64));
+  // A floor of its own, with a box about all of it, or about a quarter.
+  FaceTable whole;
+  add_quad(whole, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {});
+  FaceTable quarter = whole;
+  add_box_outward(whole, Vec3(-0.5f), Vec3(1.5f, 0.5f, 1.5f), {});
+  add_box_outward(quarter, Vec3(-0.5f), Vec3(0.5f), {});
+  const Probe buried = probe(*make_surfaces(whole), 64);
   CHECK(buried.ray_count == 64);
+  CHECK(buried.buried_count == 64);
+  // One origin in each of 8 x 8 strata, and the box ends between two of them.
+  CHECK(probe(*make_surfaces(quarter), 64).buried_count == 16);
 }
 
 TEST_CASE("uneven light marks the patches on both sides of a step, and nothing else") {
   const Floor f = make_floor(0.5f, 0);
   const std::vector<uint8_t> marks = mark(f, 1000, 1);
   for (uint32_t row = 0; row < marks.size(); ++row) {
-    const float x = cell_centre(f.frames, 0, f.patches.cell[row], 3).x;
+    const float x = cell_centre(f.surfaces->frames, 0, f.patches.cell[row], 3).x;
     CHECK(marks[row] == (std::abs(x - 0.5f) < 1 / 8.0f ? 1 : 0));
   }
 }
@@ -149,7 +148,7 @@ TEST_CASE("where the budget ends the largest changes are split, and the budget h
   std::vector<uint8_t> near(f.patches.size(), 0);
   near[strong] = 1;
   for (uint32_t edge = 0; edge < 4; ++edge)
-    near[find_neighbours(f.patches, f.frames, f.links, strong, edge)[0]] = 1;
+    near[find_neighbours(f.patches, f.surfaces->frames, f.surfaces->links, strong, edge)[0]] = 1;
   uint64_t split_most = 0;
   for (uint64_t budget = 64; budget < 120; ++budget) {
     const std::vector<uint8_t> marks = mark(f, budget, 1);

@@ -16,7 +16,7 @@ FactorTable find_table(const FaceTable& faces, const FactorSettings& settings = 
   const Tracer tracer = make_tracer(faces);
   const FactorScene scene = make_factor_scene(faces, n);
   FactorTable table = make_factor_table(scene, n);
-  while (advance(table, scene, faces, tracer, settings)) {
+  while (extend_factors(table, scene, faces, tracer, settings)) {
   }
   return table;
 }
@@ -353,19 +353,19 @@ TEST_CASE("the bits do not depend on threads, and samples depend on the seed") {
   add_box_inward(faces, Vec3(0), Vec3(1), kBlack);
   for (const Corners& side : kBox) add_polygon(faces, side, {});
   fit_scene(faces);
-  const size_t threads = thread_count();
-  set_thread_count(1);
-  const FactorTable one = find_table(faces);
+  const auto find_with = [&](size_t threads) {
+    const WorkersScope scope(std::make_shared<Workers>(threads));
+    return find_table(faces);
+  };
+  const FactorTable one = find_with(1);
   for (const size_t count : {2, 3, 8}) {
-    set_thread_count(count);
-    const FactorTable many = find_table(faces);
+    const FactorTable many = find_with(count);
     CHECK((many.exchange == one.exchange));
     CHECK((many.exchange_error == one.exchange_error));
     CHECK(many.ray_count == one.ray_count);
   }
   const FactorTable other = find_table(faces, {.seed = 2});
   CHECK((other.exchange != one.exchange));
-  set_thread_count(threads);
 }
 
 TEST_CASE("scenes of one polygon, of none, and polygons without faces") {
@@ -391,7 +391,8 @@ TEST_CASE("the forecast of bytes grows with the square of the polygons") {
 TEST_CASE("a cancelled run throws") {
   FaceTable faces;
   add_box_inward(faces, Vec3(0), Vec3(1), kBlack);
-  request_cancel();
+  const auto workers = std::make_shared<Workers>(2);
+  const WorkersScope scope(workers);
+  workers->request_cancel();
   CHECK_THROWS_AS(find_table(faces), Cancelled);
-  clear_cancel();
 }

@@ -1,6 +1,8 @@
 #include "engine/receivers.h"
 
 #include "engine/parallel.h"
+#include "engine/patches.h"
+#include "engine/rows.h"
 #include "engine/solve.h"
 #include "tests/scenes.h"
 
@@ -54,16 +56,15 @@ Furnished make_furnished(bool small_triangles) {
 }
 
 struct Shared {
-  FaceFrameTable frames;
+  std::shared_ptr<const Surfaces> surfaces;
   PatchTable patches;
   ReceiverTable receivers;
 };
 Shared share(const FaceTable& faces, uint64_t seed = 1) {
-  const Tracer tracer = make_tracer(faces);
   uint64_t rays = 0;
-  Shared s{make_face_frames(faces), {}, {}};
-  s.patches = make_patches(faces, s.frames, make_face_links(faces), tracer, 1u << 20, 1, seed, rays);
-  s.receivers = make_receivers(s.patches, faces, s.frames, tracer, seed, rays);
+  Shared s{make_surfaces(faces), {}, {}};
+  s.patches = make_patches(*s.surfaces, {1u << 20, 1, seed}, rays);
+  s.receivers = make_receivers(s.patches, *s.surfaces, seed, rays);
   return s;
 }
 
@@ -116,10 +117,11 @@ TEST_CASE("receivers: what faces a dark gap never shares with what faces the roo
   // A normal that points away from the box's middle looks into the room.
   Vec3 middle(0);
   for (uint32_t f = scene.box_first; f < scene.faces.size(); ++f)
-    middle += cell_centre(s.frames, f, 0, 0) / static_cast<float>(scene.faces.size() - scene.box_first);
+    middle +=
+        cell_centre(s.surfaces->frames, f, 0, 0) / static_cast<float>(scene.faces.size() - scene.box_first);
   const auto looks_out = [&](uint32_t patch) {
     const uint32_t face = s.patches.face[patch];
-    return dot(scene.faces.normal[face], cell_centre(s.frames, face, 0, 0) - middle) > 0;
+    return dot(scene.faces.normal[face], cell_centre(s.surfaces->frames, face, 0, 0) - middle) > 0;
   };
   size_t mixed = 0;
   for (uint32_t row = 0; row < s.receivers.size(); ++row)
@@ -137,8 +139,9 @@ TEST_CASE("receivers: rays start evenly over the area, by the normal of the patc
   FaceTable faces;
   add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, 0.5f)));
   fit_scene(faces);
-  const FaceFrameTable frames = make_face_frames(faces);
-  const PatchTable patches = make_leaves(faces, frames, [](uint32_t face) { return face == 0 ? 1u : 0u; });
+  const auto surfaces = make_surfaces(faces);
+  const PatchTable patches =
+      make_leaves(faces, surfaces->frames, [](uint32_t face) { return face == 0 ? 1u : 0u; });
   // One receiver of all nine leaves: four quarters of a side and five whole sides.
   ReceiverTable one;
   one.first = {0, static_cast<uint32_t>(patches.size())};
@@ -149,17 +152,18 @@ TEST_CASE("receivers: rays start evenly over the area, by the normal of the patc
   }
   one.area_until.back() = 1;
   one.centre = {Vec3(0)}, one.normal = {Vec3(1, 0, 0)};
+  const LeafIndex index;
+  const Casters casters{*surfaces, patches, index, one, {}};
   constexpr uint32_t kSide = 240;
   std::vector<uint32_t> count(6, 0);
   for (uint32_t i = 0; i < kSide; ++i)
     for (uint32_t j = 0; j < 4; ++j) {
-      const Origin origin =
-          find_origin(one, 0, patches, faces, frames,
-                      {(static_cast<float>(i) + 0.5f) / kSide, (static_cast<float>(j) + 0.5f) / 4});
+      const Origin origin = find_origin(
+          casters, 0, {(static_cast<float>(i) + 0.5f) / kSide, (static_cast<float>(j) + 0.5f) / 4});
       for (uint32_t f = 0; f < 6; ++f)
         if (origin.normal == faces.normal[f]) {
           ++count[f];
-          CHECK(std::abs(dot(origin.point - frames.origin[f], faces.normal[f])) <= 1e-5f);
+          CHECK(std::abs(dot(origin.point - surfaces->frames.origin[f], faces.normal[f])) <= 1e-5f);
         }
     }
   for (uint32_t f = 0; f < 6; ++f)
@@ -172,19 +176,19 @@ TEST_CASE("receivers: the light on a box of small triangles is that on a box of 
   double top[2], floor[2];
   for (const bool small : {false, true}) {
     const Furnished scene = make_furnished(small);
-    const Run run = run_scene(scene.faces, {}, 20);
-    const auto irradiance = element_irradiance(run.solution);
+    const Solution run = solve_scene(scene.faces, {}, 20);
+    const auto irradiance = element_irradiance(run);
     double power = 0, area = 0;
     const uint32_t sheet = small ? 6400 : 4;  // faces; the second sheet is the upper side
     for (uint32_t f = scene.box_first + sheet; f < scene.box_first + 2 * sheet; ++f) {
       if (scene.faces.normal[f].y <= 0) continue;
       const uint32_t polygon = scene.faces.polygon[f];
-      power += polygon_power(run.solution, scene.faces, polygon, polygon + 1, irradiance).g;
+      power += polygon_power(run, scene.faces, polygon, polygon + 1, irradiance).g;
       area += face_area(scene.faces, f);
     }
     top[small] = power / area;
-    floor[small] = polygon_power(run.solution, scene.faces, kFloor, kFloor + 1, irradiance).g /
-                   face_area(scene.faces, kFloor);
+    floor[small] =
+        polygon_power(run, scene.faces, kFloor, kFloor + 1, irradiance).g / face_area(scene.faces, kFloor);
   }
   CHECK(std::abs(top[1] / top[0] - 1) <= 0.015);
   CHECK(std::abs(floor[1] / floor[0] - 1) <= 0.015);
@@ -194,9 +198,8 @@ TEST_CASE("receivers: the same at every number of threads") {
   const Furnished scene = make_furnished(true);
   std::set<uint64_t> hashes;
   for (const size_t threads : {1u, 2u, 3u}) {
-    set_thread_count(threads);
-    hashes.insert(find_solution_hash(run_scene(scene.faces, {}, 3).solution));
+    const WorkersScope scope(std::make_shared<Workers>(threads));
+    hashes.insert(find_solution_hash(solve_scene(scene.faces, {}, 3)));
   }
-  set_thread_count(thread_count_default());
   CHECK(hashes.size() == 1);
 }

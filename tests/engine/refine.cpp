@@ -13,24 +13,24 @@ namespace {
 
 // A square of 8 x 8 leaves with edges of 1/8, dark on the left, bright on the right.
 struct Field {
-  FaceTable faces;
-  FaceFrameTable frames;
-  FaceLinkTable links;
+  std::shared_ptr<const Surfaces> surfaces;
   PatchTable elements;
+  std::vector<Rgb> direct;
   std::vector<float> error;
   std::vector<uint32_t> fresh;
 };
 
 Field make_field(float dark, float bright) {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, make_surface(0, 0.5f));
   Field field;
-  add_quad(field.faces, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {});
-  field.frames = make_face_frames(field.faces);
-  field.links = make_face_links(field.faces);
-  field.elements = make_leaves(field.faces, field.frames, [](uint32_t) { return 3u; });
+  field.surfaces = make_surfaces(faces);
+  field.elements = make_leaves(faces, field.surfaces->frames, [](uint32_t) { return 3u; });
   for (uint32_t row = 0; row < 64; ++row) {
-    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    const Vec3 c = cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3);
     field.elements.radiosity[row] = Rgb(0, c.x < 0.5f ? dark : bright, 0);
   }
+  field.direct.assign(64, Rgb(0));
   field.error.assign(64, 0);
   field.fresh.resize(64);
   std::iota(field.fresh.begin(), field.fresh.end(), 0u);
@@ -38,8 +38,8 @@ Field make_field(float dark, float bright) {
 }
 
 std::vector<uint8_t> mark(const Field& field, float threshold, float size_min, uint64_t budget, float mean) {
-  return mark_differing({field.elements, field.error, field.fresh, mean}, field.frames, field.links,
-                        field.links, threshold, size_min, budget);
+  return mark_differing({field.elements, field.direct, field.error, field.fresh, mean}, *field.surfaces,
+                        {threshold, size_min, budget});
 }
 
 ptrdiff_t count_marked(const std::vector<uint8_t>& marks) {
@@ -55,7 +55,7 @@ TEST_CASE("refine: both of two neighbours that differ by more than the threshold
   // 0.2 of the larger one.
   const auto marks = mark(field, 0.19f, 0, kPlenty, 0);
   for (uint32_t row = 0; row < 64; ++row) {
-    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    const Vec3 c = cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3);
     CHECK(marks[row] == (std::abs(c.x - 0.5f) < 0.1f ? 1 : 0));
   }
   CHECK(count_marked(marks) == 16);
@@ -92,7 +92,7 @@ TEST_CASE("refine: leaves with edges below the least size stay") {
 TEST_CASE("refine: the budget is kept, and the largest differences go first") {
   Field field = make_field(0.5f, 1);
   for (uint32_t row = 0; row < 64; ++row) {
-    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    const Vec3 c = cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3);
     if (c.y > 0.75f && c.x > 0.5f) field.elements.radiosity[row] *= 10.0f;
   }
   for (const uint64_t budget : {0ull, 63ull, 64ull, 66ull, 67ull, 80ull, 90ull}) {
@@ -101,7 +101,7 @@ TEST_CASE("refine: the budget is kept, and the largest differences go first") {
     if (budget > 66) CHECK(count_marked(marks) > 0);
     CHECK(64 + 3 * static_cast<uint64_t>(count_marked(marks)) <= std::max<uint64_t>(budget, 64));
     for (uint32_t row = 0; row < 64; ++row)
-      if (marks[row]) CHECK(cell_centre(field.frames, 0, field.elements.cell[row], 3).y > 0.6f);
+      if (marks[row]) CHECK(cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3).y > 0.6f);
   }
 }
 
@@ -118,7 +118,8 @@ TEST_CASE("refine: only leaves not compared yet, with their neighbours, are look
 TEST_CASE("refine: buried leaves are not compared") {
   Field field = make_field(0, 1);
   for (uint32_t row = 0; row < 64; ++row)
-    if (cell_centre(field.frames, 0, field.elements.cell[row], 3).x < 0.5f) field.elements.exposed[row] = 0;
+    if (cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3).x < 0.5f)
+      field.elements.exposed[row] = 0;
   CHECK(count_marked(mark(field, 0.1f, 0, kPlenty, 0)) == 0);
 }
 
@@ -126,7 +127,8 @@ TEST_CASE("refine: the tree stays balanced and is not split below the deepest le
   Field field = make_field(0, 1);
   for (uint32_t round = 0; round < 20; ++round) {
     for (uint32_t row = 0; row < field.elements.size(); ++row) {
-      const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], field.elements.level[row]);
+      const Vec3 c =
+          cell_centre(field.surfaces->frames, 0, field.elements.cell[row], field.elements.level[row]);
       // A bright spot about an inner point.
       field.elements.radiosity[row] = Rgb(distance(c, Vec3(0.3f, 0.4f, 0)) < 0.0001f ? 1.0f : 0.0f);
       if (find_leaf(field.elements, 0, find_cell(false, {0.3f, 0.4f})) == row)
@@ -138,10 +140,11 @@ TEST_CASE("refine: the tree stays balanced and is not split below the deepest le
     const auto marks = mark(field, 0.1f, 0, kPlenty, 0);
     if (count_marked(marks) == 0) break;
     std::vector<uint32_t> parent;
-    field.elements = split_leaves(field.elements, field.frames, marks, parent);
+    field.elements = split_leaves(field.elements, field.surfaces->frames, marks, parent);
     for (uint32_t row = 0; row < field.elements.size(); ++row)
       for (uint32_t edge = 0; edge < 4; ++edge) {
-        const uint32_t other = find_coarse_neighbour(field.elements, field.frames, field.links, row, edge);
+        const uint32_t other =
+            find_coarse_neighbour(field.elements, field.surfaces->frames, field.surfaces->links, row, edge);
         if (other != kNone) REQUIRE(field.elements.level[row] - field.elements.level[other] <= 1);
       }
   }
@@ -154,21 +157,19 @@ TEST_CASE(
     "refine: a split is told by what its greatest difference is made of, and by balance where there is "
     "none") {
   Field field = make_field(0.8f, 1);
-  field.faces.reflectance[0] = Rgb(0.5f);
-  std::vector<Rgb> direct(64, Rgb(0));
   // Below, the difference is one of direct light; above, direct light is even.
   for (uint32_t row = 0; row < 64; ++row) {
-    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
-    if (c.x > 0.5f && c.y < 0.5f) direct[row] = Rgb(0, 0.4f, 0);
+    const Vec3 c = cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3);
+    if (c.x > 0.5f && c.y < 0.5f) field.direct[row] = Rgb(0, 0.4f, 0);
   }
   std::vector<uint8_t> marks = mark(field, 0.1f, 0, kPlenty, 0);
   const uint32_t far = 0;  // a corner, whose neighbours are as bright as it is
   marks[far] = 1;
   std::vector<SplitReason> reasons(64, SplitReason::kStart);
-  find_split_reasons(reasons, marks, {field.elements, field.error, field.fresh, 0}, direct, field.faces,
-                     field.frames, field.links, 0.1f);
+  find_split_reasons(reasons, marks, {field.elements, field.direct, field.error, field.fresh, 0},
+                     *field.surfaces, 0.1f);
   for (uint32_t row = 0; row < 64; ++row) {
-    const Vec3 c = cell_centre(field.frames, 0, field.elements.cell[row], 3);
+    const Vec3 c = cell_centre(field.surfaces->frames, 0, field.elements.cell[row], 3);
     SplitReason expected = SplitReason::kStart;
     if (row == far) expected = SplitReason::kBalance;
     if (row != far && marks[row]) expected = c.y < 0.5f ? SplitReason::kDirect : SplitReason::kIndirect;

@@ -37,18 +37,19 @@ DVec2 disk_to_square(DVec2 p) {
 }
 
 struct Cast {
-  FaceFrameTable frames;
+  std::shared_ptr<const Surfaces> surfaces;
   PatchTable patches;
   HitTable hits;
 };
 
 Cast cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t seed) {
-  Cast rows{make_face_frames(faces), {}, {}};
-  rows.patches = make_leaves(faces, rows.frames, [&](uint32_t) { return level; });
-  const Tracer tracer = make_tracer(faces);
-  const uint64_t count = cast_rows(
-      rows.hits, rows.patches, all_rows(rows.patches.size()), make_leaf_index(rows.patches),
-      make_single_receivers(rows.patches, faces, rows.frames), faces, rows.frames, tracer, {rays, seed});
+  Cast rows{make_surfaces(faces), {}, {}};
+  rows.patches = make_leaves(faces, rows.surfaces->frames, [&](uint32_t) { return level; });
+  const LeafIndex index = make_leaf_index(rows.patches);
+  const ReceiverTable receivers = make_single_receivers(rows.patches, *rows.surfaces);
+  const uint64_t count =
+      cast_rows(rows.hits, rows.patches.exposed, all_rows(rows.patches.size()),
+                {*rows.surfaces, rows.patches, index, receivers, make_ray_grid(rays), seed}, true);
   CHECK(count == uint64_t{rows.hits.ray_count} * rows.patches.size());
   return rows;
 }
@@ -57,7 +58,7 @@ Cast cast_all(const FaceTable& faces, uint32_t level, uint32_t rays, uint64_t se
 
 TEST_CASE("row grids are whole packets, near the number of rays asked for") {
   for (uint32_t rays = 1; rays <= 5000; ++rays) {
-    const RowGrid grid = make_row_grid(rays);
+    const RayGrid grid = make_ray_grid(rays);
     REQUIRE(grid.columns % 4 == 0);
     REQUIRE(grid.rows % 4 == 0);
     REQUIRE(grid.packet_count() * kPacketSize == grid.ray_count());
@@ -65,8 +66,8 @@ TEST_CASE("row grids are whole packets, near the number of rays asked for") {
     if (rays >= 16) REQUIRE(grid.ray_count() <= 1.5 * rays);
     if (rays >= 16) REQUIRE(grid.ray_count() >= rays / 1.5);
   }
-  CHECK(make_row_grid(256).ray_count() == 256);
-  CHECK(make_row_grid(0).ray_count() == 16);
+  CHECK(make_ray_grid(256).ray_count() == 256);
+  CHECK(make_ray_grid(0).ray_count() == 16);
 }
 
 TEST_CASE("rows: every stratum of the patch and every stratum of the directions is used once") {
@@ -76,11 +77,11 @@ TEST_CASE("rows: every stratum of the patch and every stratum of the directions 
   const Frame frame = make_frame(faces.normal[0]);
   for (const uint32_t rays : {16u, 96u, 256u, 400u, 1000u})
     for (const uint64_t key : {1ull, 0x123456789abcdefull, ~0ull}) {
-      const RowGrid grid = make_row_grid(rays);
+      const RayGrid grid = make_ray_grid(rays);
       std::vector<uint32_t> origin_count(grid.ray_count(), 0), direction_count(grid.ray_count(), 0);
       HitPacket packet;
       for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-        make_row_packet(packet, frames, frame, 0, 0, 0, key, grid, tile);
+        make_ray_packet(packet, {{0}, frame, key, grid}, frames, tile);
         for (uint32_t k = 0; k < kPacketSize; ++k) {
           const Vec3 origin = get_origin(packet.ray, k), direction = get_direction(packet.ray, k);
           REQUIRE(origin.z > 0);
@@ -106,13 +107,13 @@ TEST_CASE("rows: directions have cosine density") {
   add_quad(faces, {0, 0, 0}, {0.3f, 0.1f, 0.2f}, {0.2f, 0.5f, 0.7f}, {-0.1f, 0.4f, 0.5f}, {});
   const FaceFrameTable frames = make_face_frames(faces);
   const Frame frame = make_frame(faces.normal[0]);
-  const RowGrid grid = make_row_grid(4096);
+  const RayGrid grid = make_ray_grid(4096);
   HitPacket packet;
   double height = 0, height_squared = 0;
   DVec2 across(0);
   uint32_t below_half = 0;
   for (uint32_t tile = 0; tile < grid.packet_count(); ++tile) {
-    make_row_packet(packet, frames, frame, 0, 0, 0, 77, grid, tile);
+    make_ray_packet(packet, {{0}, frame, 77, grid}, frames, tile);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       const DVec3 d(get_direction(packet.ray, k));
       const double z = dot(d, DVec3(frame.normal));
@@ -194,7 +195,7 @@ TEST_CASE("rows: what lies inside a solid is buried, what lies outside is not") 
   add_box_outward(faces, {0.25f, -0.1f, 0.25f}, {0.75f, 0.5f, 0.5f}, {});
   const Cast rows = cast_all(faces, 3, 256, 1);
   for (uint32_t row = 0; row < rows.patches.face_first[1]; ++row) {
-    const Vec3 c = cell_centre(rows.frames, 0, rows.patches.cell[row], 3);
+    const Vec3 c = cell_centre(rows.surfaces->frames, 0, rows.patches.cell[row], 3);
     const bool inside = c.x > 0.25f && c.x < 0.75f && c.z > 0.25f && c.z < 0.5f;
     CHECK(rows.patches.exposed[row] == (inside ? 0.0f : 1.0f));
     for (uint32_t k = 0; k < rows.hits.ray_count; ++k)
@@ -212,14 +213,14 @@ TEST_CASE("rows: what lies inside a solid is buried, what lies outside is not") 
 TEST_CASE("rows: points are found buried by what they see in all directions") {
   FaceTable faces = make_unit_room();
   add_box_outward(faces, {0.2f, 0.2f, 0.2f}, {0.4f, 0.4f, 0.4f}, {});
-  const Tracer tracer = make_tracer(faces);
+  const auto surfaces = make_surfaces(faces);
   RayPacket rays;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const float x = k % 2 ? 0.3f : 0.6f;
     rays.origin_x[k] = x, rays.origin_y[k] = 0.3f, rays.origin_z[k] = 0.3f;
   }
-  CHECK(find_buried(tracer, faces, make_frame({0, 1, 0}), rays, 0xffff) == 0xaaaa);
-  CHECK(find_buried(tracer, faces, make_frame({0, 0, -1}), rays, 0x00ff) == 0x00aa);
+  CHECK(find_buried(*surfaces, make_frame({0, 1, 0}), rays, 0xffff) == 0xaaaa);
+  CHECK(find_buried(*surfaces, make_frame({0, 0, -1}), rays, 0x00ff) == 0x00aa);
 }
 
 TEST_CASE("rows: one seed gives one set of rows, another seed another") {
@@ -237,17 +238,16 @@ TEST_CASE("rows: cast again they are the rows that were kept, and so are their c
   // A window and a pillar: some rays end nowhere, some on backs, some start buried.
   faces.corners[kLeft] = {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0.5f, 1), Vec3(0, 0.5f, 0)};
   add_box_outward(faces, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, make_surface(0, 0.5f));
-  const FaceFrameTable frames = make_face_frames(faces);
-  const Tracer tracer = make_tracer(faces);
-  PatchTable patches = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  const ReceiverTable receivers = make_single_receivers(patches, faces, frames);
+  const auto surfaces = make_surfaces(faces);
+  PatchTable patches = make_leaves(faces, surfaces->frames, [](uint32_t) { return 2u; });
+  const ReceiverTable receivers = make_single_receivers(patches, *surfaces);
   const LeafIndex index = make_leaf_index(patches);
+  const Casters casters{*surfaces, patches, index, receivers, make_ray_grid(100), 7};
   HitTable kept, counted;
-  cast_rows(kept, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer,
-            {100, 7, true});
+  cast_rows(kept, patches.exposed, all_rows(receivers.size()), casters, true);
   const std::vector<float> exposed = patches.exposed;
-  CHECK(cast_rows(counted, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer,
-                  {100, 7, false}) == uint64_t{kept.ray_count} * receivers.size());
+  CHECK(cast_rows(counted, patches.exposed, all_rows(receivers.size()), casters, false) ==
+        uint64_t{kept.ray_count} * receivers.size());
   CHECK(counted.patch.empty());
   CHECK(counted.nothing == kept.nothing);
   CHECK(counted.back == kept.back);
@@ -260,11 +260,11 @@ TEST_CASE("rows: cast again they are the rows that were kept, and so are their c
   CHECK(total(kept.back) == std::count(kept.patch.begin(), kept.patch.end(), kHitBack));
   CHECK(total(kept.buried) == std::count(kept.patch.begin(), kept.patch.end(), kHitBuried));
   for (const auto* column : {&kept.nothing, &kept.back, &kept.buried}) CHECK(total(*column) > 0);
-  const Rows rows{counted, index, receivers, patches, faces, frames, tracer, make_row_grid(100), 7};
+  const Rows rows{casters, counted};
   RowScratch scratch;
-  for (size_t row = 0; row < receivers.size(); ++row) {
+  for (uint32_t row = 0; row < receivers.size(); ++row) {
     const RowHits hits = find_row(scratch, rows, row);
-    const size_t first = row * kept.ray_count;
+    const size_t first = size_t{row} * kept.ray_count;
     REQUIRE(std::equal(hits.patch.begin(), hits.patch.end(), kept.patch.begin() + first));
     REQUIRE(std::equal(hits.cell.begin(), hits.cell.end(), kept.cell.begin() + first));
   }
@@ -273,21 +273,20 @@ TEST_CASE("rows: cast again they are the rows that were kept, and so are their c
 TEST_CASE("rows: what is moved and cast anew after a split is what casting the split patches gives") {
   FaceTable faces = make_unit_room();
   add_box_outward(faces, {0.3f, -0.1f, 0.3f}, {0.7f, 0.5f, 0.7f}, make_surface(0, 0.5f));
-  const FaceFrameTable frames = make_face_frames(faces);
-  const Tracer tracer = make_tracer(faces);
-  PatchTable before = make_leaves(faces, frames, [](uint32_t) { return 2u; });
-  const ReceiverTable receivers_before = make_single_receivers(before, faces, frames);
+  const auto surfaces = make_surfaces(faces);
+  PatchTable before = make_leaves(faces, surfaces->frames, [](uint32_t) { return 2u; });
+  const ReceiverTable receivers_before = make_single_receivers(before, *surfaces);
   std::vector<uint8_t> marks(before.size(), 0);
   for (size_t row = 0; row < marks.size(); row += 5) marks[row] = 1;
   for (const bool keep : {true, false}) {
-    const RowSettings settings{64, 3, keep};
+    const RayGrid grid = make_ray_grid(64);
+    const LeafIndex index_before = make_leaf_index(before);
     HitTable hits, anew;
-    cast_rows(hits, before, all_rows(before.size()), make_leaf_index(before), receivers_before, faces, frames,
-              tracer, settings);
+    cast_rows(hits, before.exposed, all_rows(before.size()),
+              {*surfaces, before, index_before, receivers_before, grid, 3}, keep);
     std::vector<uint32_t> parent, row_before, fresh;
-    PatchTable patches = split_leaves(before, frames, marks, parent);
-    const ReceiverTable receivers =
-        split_receivers(receivers_before, parent, patches, faces, frames, row_before);
+    PatchTable patches = split_leaves(before, surfaces->frames, marks, parent);
+    const ReceiverTable receivers = split_receivers(receivers_before, parent, patches, *surfaces, row_before);
     REQUIRE(receivers.size() == patches.size());
     for (uint32_t row = 0; row < row_before.size(); ++row) {
       CHECK((row_before[row] == kNone) == (marks[parent[row]] == 1));
@@ -295,9 +294,10 @@ TEST_CASE("rows: what is moved and cast anew after a split is what casting the s
     }
     const LeafIndex index = make_leaf_index(patches);
     move_rows(hits, row_before, before, parent);
-    cast_rows(hits, patches, fresh, index, receivers, faces, frames, tracer, settings);
+    const Casters casters{*surfaces, patches, index, receivers, grid, 3};
+    cast_rows(hits, patches.exposed, fresh, casters, keep);
     const std::vector<float> exposed = patches.exposed;
-    cast_rows(anew, patches, all_rows(receivers.size()), index, receivers, faces, frames, tracer, settings);
+    cast_rows(anew, patches.exposed, all_rows(receivers.size()), casters, keep);
     CHECK(hits.patch == anew.patch);
     CHECK(hits.cell == anew.cell);
     CHECK(hits.nothing == anew.nothing);

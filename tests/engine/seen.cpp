@@ -26,14 +26,14 @@ FaceTable make_hall() {
 TEST_CASE(
     "seen: every sample finds the element that holds its hit, whichever was guessed, alone or in a packet") {
   const FaceTable faces = make_hall();
-  const Run run = run_scene(faces, {}, 1);
-  const Solution& s = run.solution;
+  const Solution s = solve_scene(faces, {}, 1);
   View view{.eye = {0.45f, 0.5f, 2.2f}, .target = {0.5f, 0.45f, 0}, .up = {0, 1, 0}};
   view.fov_degrees = 50, view.width = 64, view.height = 48;
   size_t hit_count = 0, mixed_count = 0;
   for (const bool hemisphere : {false, true}) {
     view.hemisphere = hemisphere;
     const Lens lens = make_lens(view);
+    const Prospect prospect{lens, *s.surfaces, s.mesh.elements};
     uint32_t guess = kNone;
     for (uint32_t packet = 0; packet < 64 * 48; ++packet) {
       Vec2 at[kPacketSize];
@@ -41,9 +41,9 @@ TEST_CASE(
         at[k] =
             Vec2(static_cast<float>(packet % 64), static_cast<float>(packet / 64)) + make_jitter(packet, k);
       Seen seen, again;
-      uint32_t other = packet % static_cast<uint32_t>(s.elements.size());
-      find_seen(seen, guess, at, lens, faces, s.frames, s.elements, run.tracer);
-      find_seen(again, other, at, lens, faces, s.frames, s.elements, run.tracer);
+      uint32_t other = packet % static_cast<uint32_t>(s.mesh.elements.size());
+      find_seen(seen, guess, at, prospect);
+      find_seen(again, other, at, prospect);
       bool mixed = false;
       for (uint32_t k = 0; k < kPacketSize; ++k) {
         REQUIRE(seen.element[k] == again.element[k]);
@@ -52,12 +52,12 @@ TEST_CASE(
         if (row == kNone) continue;
         ++hit_count;
         REQUIRE(lens.covers(at[k]));
-        const uint32_t face = s.elements.face[row];
+        const uint32_t face = s.mesh.elements.face[row];
         // Coordinates of about 1, a dozen roundings.
         const Vec3 point = lens.eye + seen.distance[k] * lens.find_direction(at[k]);
-        REQUIRE(length(point - face_point(s.frames, face, {seen.u[k], seen.v[k]})) < 5e-6f);
-        REQUIRE(row ==
-                find_leaf(s.elements, face, find_cell(s.frames.triangle[face], {seen.u[k], seen.v[k]})));
+        REQUIRE(length(point - face_point(s.surfaces->frames, face, {seen.u[k], seen.v[k]})) < 5e-6f);
+        REQUIRE(row == find_leaf(s.mesh.elements, face,
+                                 find_cell(s.surfaces->frames.triangle[face], {seen.u[k], seen.v[k]})));
         REQUIRE(dot(lens.find_direction(at[k]), faces.normal[face]) < 0);
       }
       mixed_count += mixed;

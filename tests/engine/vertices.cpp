@@ -1,5 +1,6 @@
 #include "engine/vertices.h"
 
+#include "engine/face_links.h"
 #include "engine/sampling.h"
 #include "tests/scenes.h"
 
@@ -11,7 +12,7 @@ using namespace patchlight;
 
 namespace {
 
-struct Mesh {
+struct Leaves {
   FaceTable faces;
   FaceFrameTable frames;
   FaceLinkTable links;
@@ -19,8 +20,8 @@ struct Mesh {
   VertexTable vertices;
 };
 
-Mesh make_mesh(FaceTable faces, uint32_t level, uint32_t split_rounds, uint64_t seed) {
-  Mesh mesh{std::move(faces), {}, {}, {}, {}};
+Leaves make_mesh(FaceTable faces, uint32_t level, uint32_t split_rounds, uint64_t seed) {
+  Leaves mesh{std::move(faces), {}, {}, {}, {}};
   mesh.frames = make_face_frames(mesh.faces);
   mesh.links = make_face_links(mesh.faces);
   mesh.leaves = make_leaves(mesh.faces, mesh.frames, [&](uint32_t) { return level; });
@@ -29,11 +30,11 @@ Mesh make_mesh(FaceTable faces, uint32_t level, uint32_t split_rounds, uint64_t 
   return mesh;
 }
 
-Vec3 corner_point(const Mesh& mesh, uint32_t row, uint32_t k) {
+Vec3 corner_point(const Leaves& mesh, uint32_t row, uint32_t k) {
   return cell_corners(mesh.frames, mesh.leaves.face[row], mesh.leaves.cell[row], mesh.leaves.level[row])[k];
 }
 
-Vec3 centre_point(const Mesh& mesh, uint32_t row) {
+Vec3 centre_point(const Leaves& mesh, uint32_t row) {
   return cell_centre(mesh.frames, mesh.leaves.face[row], mesh.leaves.cell[row], mesh.leaves.level[row]);
 }
 
@@ -46,9 +47,9 @@ std::vector<Rgb> make_random_values(size_t count) {
   return values;
 }
 
-float sample_at(const Mesh& mesh, const std::vector<Rgb>& values, uint32_t row, Vec3 point) {
+float sample_at(const Leaves& mesh, const std::vector<Rgb>& values, uint32_t row, Vec3 point) {
   const Vec2 uv = find_face_parameters(mesh.frames, mesh.leaves.face[row], point);
-  return sample_surface(mesh.vertices, mesh.leaves, mesh.frames, values, row, uv).r;
+  return sample_surface({mesh.vertices, mesh.leaves, mesh.frames}, values, row, uv).r;
 }
 
 constexpr ReconstructSettings kPlain{.sharpen_steps = 0, .border_steps = 0};
@@ -57,7 +58,7 @@ constexpr ReconstructSettings kSharp{.sharpen_steps = 3, .border_steps = 3};
 }  // namespace
 
 TEST_CASE("corners at one place are one vertex, and others are not") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 1, 5, 4);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 1, 5, 4);
   std::map<std::array<int, 2>, uint32_t> vertex_at;
   std::vector<uint8_t> met(mesh.vertices.size(), 0);
   for (uint32_t row = 0; row < mesh.leaves.size(); ++row)
@@ -75,7 +76,7 @@ TEST_CASE("corners at one place are one vertex, and others are not") {
 }
 
 TEST_CASE("a triangle repeats its third vertex, and the list of leaves of a vertex is the inverse") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 1, 4, 5);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 1, 4, 5);
   size_t entries = 0;
   for (uint32_t v = 0; v < mesh.vertices.size(); ++v)
     for (uint32_t k = mesh.vertices.vertex_first[v]; k < mesh.vertices.vertex_first[v + 1]; ++k, ++entries) {
@@ -102,10 +103,10 @@ TEST_CASE("polygons that touch share no vertices") {
 
 TEST_CASE("the surface of values has no cracks: both sides of every edge agree along it") {
   for (const uint64_t seed : {1u, 2u}) {
-    const Mesh mesh = make_mesh(make_mixed_polygon({}), 1, 5, seed);
+    const Leaves mesh = make_mesh(make_mixed_polygon({}), 1, 5, seed);
     CHECK(!mesh.vertices.hanging_order.empty());
     for (const ReconstructSettings& settings : {kPlain, kSharp}) {
-      const auto values = reconstruct(mesh.vertices, mesh.leaves, mesh.frames,
+      const auto values = reconstruct({mesh.vertices, mesh.leaves, mesh.frames},
                                       make_random_values(mesh.leaves.size()), settings);
       for (uint32_t row = 0; row < mesh.leaves.size(); ++row)
         for (uint32_t edge = 0; edge < edge_count(mesh.frames, mesh.leaves.face[row]); ++edge) {
@@ -124,9 +125,9 @@ TEST_CASE("the surface of values has no cracks: both sides of every edge agree a
 }
 
 TEST_CASE("a hanging vertex is the mean of the ends of the edge that it hangs on") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 1, 5, 8);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 1, 5, 8);
   const auto values =
-      reconstruct(mesh.vertices, mesh.leaves, mesh.frames, make_random_values(mesh.leaves.size()), kSharp);
+      reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, make_random_values(mesh.leaves.size()), kSharp);
   std::vector<Vec3> place(mesh.vertices.size());
   for (uint32_t row = 0; row < mesh.leaves.size(); ++row)
     for (uint32_t k = 0; k < 4; ++k) place[mesh.vertices.leaf_vertex[row][k]] = corner_point(mesh, row, k);
@@ -142,10 +143,10 @@ TEST_CASE("a hanging vertex is the mean of the ends of the edge that it hangs on
 }
 
 TEST_CASE("equal leaves give an equal surface, whatever the mesh and the settings") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 1, 5, 6);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 1, 5, 6);
   const std::vector<Rgb> leaf_values(mesh.leaves.size(), Rgb(0.3f, 7, 1e-6f));
   for (const ReconstructSettings& settings : {kPlain, kSharp})
-    for (const Rgb& value : reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values, settings)) {
+    for (const Rgb& value : reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values, settings)) {
       // Sums of up to eight equal floats.
       CHECK(value.r == doctest::Approx(0.3f).epsilon(1e-6));
       CHECK(value.g == doctest::Approx(7).epsilon(1e-6));
@@ -158,13 +159,13 @@ TEST_CASE("a linear field on a uniform mesh is reproduced at inner vertices") {
   add_quad(quad, {0, 0, 0}, {2, 0, 0}, {2.5f, 1, 0}, {0.5f, 1, 0}, {});
   add_triangle(triangle, {0, 0, 0}, {2, 0, 0}, {0.5f, 1, 0}, {});
   for (const FaceTable& faces : {quad, triangle}) {
-    const Mesh mesh = make_mesh(faces, 4, 0, 0);
+    const Leaves mesh = make_mesh(faces, 4, 0, 0);
     const auto field = [](Vec3 p) { return 3 + p.x - 0.7f * p.y; };
     std::vector<Rgb> leaf_values(mesh.leaves.size());
     for (uint32_t row = 0; row < mesh.leaves.size(); ++row)
       leaf_values[row] = Rgb(field(centre_point(mesh, row)));
-    const auto plain = reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values, kPlain);
-    const auto border = reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values,
+    const auto plain = reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values, kPlain);
+    const auto border = reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values,
                                     {.sharpen_steps = 0, .border_steps = 2});
     size_t inner = 0;
     double plain_error = 0, border_error = 0;
@@ -189,12 +190,12 @@ TEST_CASE("a linear field on a uniform mesh is reproduced at inner vertices") {
 }
 
 TEST_CASE("values stay within those of the leaves around an inner vertex, and are never negative") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 2, 4, 7);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 2, 4, 7);
   auto leaf_values = make_random_values(mesh.leaves.size());
   for (uint32_t row = 0; row < leaf_values.size(); row += 3) leaf_values[row] = Rgb(0);  // sharp edges
   for (const ReconstructSettings& settings :
        {kPlain, kSharp, ReconstructSettings{.sharpen_steps = 20, .border_steps = 20}}) {
-    const auto values = reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values, settings);
+    const auto values = reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values, settings);
     for (uint32_t v = 0; v < mesh.vertices.size(); ++v) {
       REQUIRE(values[v].r >= 0);
       REQUIRE(values[v].g >= 0);
@@ -212,14 +213,14 @@ TEST_CASE("values stay within those of the leaves around an inner vertex, and ar
 }
 
 TEST_CASE("sharpening brings the mean of the surface over a leaf nearer to the leaf's value") {
-  const Mesh mesh = make_mesh(make_mixed_polygon({}), 4, 0, 0);
+  const Leaves mesh = make_mesh(make_mixed_polygon({}), 4, 0, 0);
   std::vector<Rgb> leaf_values(mesh.leaves.size());
   for (uint32_t row = 0; row < mesh.leaves.size(); ++row)
     leaf_values[row] = Rgb(centre_point(mesh, row).x + 0.3f * centre_point(mesh, row).y > 0.5f ? 1.0f : 0.2f);
   double error[2] = {0, 0};
   for (int sharp = 0; sharp < 2; ++sharp) {
     const auto values =
-        reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values, sharp ? kSharp : kPlain);
+        reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values, sharp ? kSharp : kPlain);
     for (uint32_t row = 0; row < mesh.leaves.size(); ++row) {
       const auto& c = mesh.vertices.leaf_vertex[row];
       const float three = values[c[0]].r + values[c[1]].r + values[c[2]].r;
@@ -231,11 +232,11 @@ TEST_CASE("sharpening brings the mean of the surface over a leaf nearer to the l
 }
 
 TEST_CASE("leaves that lie buried do not count, and a vertex among them alone is black") {
-  Mesh mesh = make_mesh(make_mixed_polygon({}), 3, 0, 0);
+  Leaves mesh = make_mesh(make_mixed_polygon({}), 3, 0, 0);
   std::vector<Rgb> leaf_values(mesh.leaves.size(), Rgb(2));
   for (uint32_t row = 0; row < mesh.leaves.face_first[1]; ++row)
     if (centre_point(mesh, row).x < 0.5f) mesh.leaves.exposed[row] = 0, leaf_values[row] = Rgb(1000);
-  const auto values = reconstruct(mesh.vertices, mesh.leaves, mesh.frames, leaf_values, kSharp);
+  const auto values = reconstruct({mesh.vertices, mesh.leaves, mesh.frames}, leaf_values, kSharp);
   for (uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     bool any = false;
     for (uint32_t k = mesh.vertices.vertex_first[v]; k < mesh.vertices.vertex_first[v + 1]; ++k)

@@ -20,12 +20,12 @@ Factor find_factor(const Corners& to, const Corners& from, const std::vector<Cor
   add_polygon(faces, to, make_surface(0, 0));
   for (const Corners& blocker : blockers) add_two_sided(faces, blocker, {}, {});
   fit_scene(faces);
-  const Run run = run_scene(faces, {}, 1);
-  const Solution& s = run.solution;
+  const Solution run = solve_scene(faces, {}, 1);
+  const Solution& s = run;
   const double power = polygon_power(s, faces, 1, 2, element_irradiance(s)).g;
   double rays = 0;
-  for (uint32_t row = s.patches.face_first[1]; row < s.patches.face_first[2]; ++row)
-    if (s.irradiance[row].g > 0) rays += s.hits.ray_count;
+  for (uint32_t row = s.mesh.patches.face_first[1]; row < s.mesh.patches.face_first[2]; ++row)
+    if (s.light.smooth[row].g > 0) rays += s.transport.hits.ray_count;
   return {power / face_area(faces, 1), rays};
 }
 

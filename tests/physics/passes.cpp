@@ -1,6 +1,8 @@
 // Passes against other ways to the same answer: a dense solution, symmetry, other seeds, other threads, other
 // places.
+#include "engine/forecast.h"
 #include "engine/parallel.h"
+#include "engine/sizes.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
@@ -34,11 +36,10 @@ SolverSettings make_settings(uint64_t seed) {
 
 // Power of each polygon after a pass.
 std::vector<double> find_powers(const FaceTable& faces, const SolverSettings& settings, uint32_t pass) {
-  const Run run = run_scene(faces, settings, pass);
+  const Solution run = solve_scene(faces, settings, pass);
   std::vector<double> powers;
   for (uint32_t polygon = 0; polygon < next_polygon(faces); ++polygon)
-    powers.push_back(
-        polygon_power(run.solution, faces, polygon, polygon + 1, run.solution.elements.radiosity).g);
+    powers.push_back(polygon_power(run, faces, polygon, polygon + 1, run.mesh.elements.radiosity).g);
   return powers;
 }
 
@@ -53,19 +54,21 @@ TEST_CASE("passes are the Neumann series: they tend to the dense solution of the
   fit_scene(faces);
   SolverSettings settings;
   settings.patch_count_max = 400;
-  Run run = run_scene(faces, settings, 40);
-  const Solution& s = run.solution;
-  const size_t n = s.patches.size();
+  Solution run = solve_scene(faces, settings, 40);
+  const Solution& s = run;
+  const size_t n = s.mesh.patches.size();
   CHECK(n < 400);
   // (I - rho F) B = E with F_ij = the share of row i's rays that end on patch j, by elimination with pivots
   // on the diagonal: the matrix is diagonally dominant.
   std::vector<std::vector<double>> matrix(n, std::vector<double>(n + 1, 0));
   for (size_t i = 0; i < n; ++i) {
-    const uint32_t face = s.patches.face[i];
-    for (uint32_t k = 0; k < s.hits.ray_count; ++k) {
-      const uint32_t j = s.hits.patch[s.receivers.receiver_of[i] * size_t{s.hits.ray_count} + k];
+    const uint32_t face = s.mesh.patches.face[i];
+    for (uint32_t k = 0; k < s.transport.hits.ray_count; ++k) {
+      const uint32_t j =
+          s.transport.hits
+              .patch[s.transport.receivers.receiver_of[i] * size_t{s.transport.hits.ray_count} + k];
       REQUIRE(j < n);
-      matrix[i][j] -= double{faces.reflectance[face].g} / s.hits.ray_count;
+      matrix[i][j] -= double{faces.reflectance[face].g} / s.transport.hits.ray_count;
     }
     matrix[i][i] += 1;
     matrix[i][n] = faces.emission[face].g;
@@ -84,8 +87,8 @@ TEST_CASE("passes are the Neumann series: they tend to the dense solution of the
   }
   double found = 0, expected = 0;
   for (size_t p = 0; p < n; ++p) {
-    found += double{s.patches.area[p]} * s.patches.radiosity[p].g;
-    expected += double{s.patches.area[p]} * dense[p];
+    found += double{s.mesh.patches.area[p]} * s.mesh.patches.radiosity[p].g;
+    expected += double{s.mesh.patches.area[p]} * dense[p];
   }
   // The dense solution knows one value a patch, the solver a surface in passes 1 and 2, and both have the
   // same rows: the means of a cube of m patches an edge differ by its constant patches' error, which falls as
@@ -104,35 +107,34 @@ TEST_CASE("pass 1 is black where no lamp is seen, and pass 2 is not") {
                     make_surface(0, 0.7f), make_surface(0, 0.7f));
   fit_scene(faces);
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 1);
+  Solution run = solve_scene(faces, settings, 1);
   // At floor level, all is dark behind the partition below the line from the lamp's far edge (0.05, 0.15)
   // through the partition's free edge (1, 0.9); the same holds at every height.
   const auto scale = static_cast<float>(1 / std::sqrt(2 * (2 + 2 + 1) + 0.01 + 2 * 0.9));
   size_t dark = 0;
   const auto is_dark_place = [&](size_t row) {
-    const auto corners = cell_corners(run.solution.frames, run.solution.elements.face[row],
-                                      run.solution.elements.cell[row], run.solution.elements.level[row]);
+    const auto corners = cell_corners(run.surfaces->frames, run.mesh.elements.face[row],
+                                      run.mesh.elements.cell[row], run.mesh.elements.level[row]);
     return std::all_of(corners.begin(), corners.end(), [&](Vec3 p) {
       p /= scale;
       return p.x > 1.001f && p.z < 0.9f + (p.x - 1) * (0.9f - 0.15f) / 0.95f - 0.02f;
     });
   };
-  for (size_t row = 0; row < run.solution.elements.size(); ++row)
+  for (size_t row = 0; row < run.mesh.elements.size(); ++row)
     if (is_dark_place(row)) {
       ++dark;
-      REQUIRE(run.solution.elements.radiosity[row] == Rgb(0));
+      REQUIRE(run.mesh.elements.radiosity[row] == Rgb(0));
     }
   CHECK(dark > 500);
   // Which of the partition's sides looks where.
   for (const uint32_t side : {partition, partition + 1}) {
     const bool far_side = faces.normal[side].x > 0;
-    CHECK((mean_radiosity(run.solution, faces, side) > 0) == !far_side);
+    CHECK((mean_radiosity(run, faces, side) > 0) == !far_side);
   }
-  advance_to(run, faces, settings, 2);
+  advance_to(run, 2);
   double power = 0;
-  for (size_t row = 0; row < run.solution.elements.size(); ++row)
-    if (is_dark_place(row))
-      power += double{run.solution.elements.area[row]} * run.solution.elements.radiosity[row].g;
+  for (size_t row = 0; row < run.mesh.elements.size(); ++row)
+    if (is_dark_place(row)) power += double{run.mesh.elements.area[row]} * run.mesh.elements.radiosity[row].g;
   CHECK(power > 0);
 }
 
@@ -148,10 +150,9 @@ TEST_CASE("a symmetric scene has symmetric light, within the noise that other se
   std::array<double, kSeeds> difference{};
   double sum = 0, squares = 0;
   for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-    const Run run = run_scene(faces, make_settings(seed + 1), 3);
+    const Solution run = solve_scene(faces, make_settings(seed + 1), 3);
     // Left against right.
-    difference[seed] =
-        mean_radiosity(run.solution, faces, kLeft) / mean_radiosity(run.solution, faces, kRight) - 1;
+    difference[seed] = mean_radiosity(run, faces, kLeft) / mean_radiosity(run, faces, kRight) - 1;
     sum += difference[seed] / kSeeds;
     squares += difference[seed] * difference[seed] / kSeeds;
   }
@@ -167,13 +168,12 @@ TEST_CASE("one seed gives one solution, bit by bit, at 1, 2, 3 and 8 threads") {
   std::vector<size_t> sizes;
   std::vector<double> closures;
   for (const size_t threads : {1, 2, 3, 8}) {
-    set_thread_count(threads);
-    const Run run = run_scene(faces, make_settings(1), 3);
-    hashes.push_back(find_solution_hash(run.solution));
-    sizes.push_back(run.solution.elements.size());
-    closures.push_back(find_power_ledger(run.solution, faces, run.tracer, make_settings(1)).closure_error);
+    const WorkersScope scope(std::make_shared<Workers>(threads));
+    const Solution run = solve_scene(faces, make_settings(1), 3);
+    hashes.push_back(find_solution_hash(run));
+    sizes.push_back(run.mesh.elements.size());
+    closures.push_back(find_power_ledger(run).closure_error);
   }
-  set_thread_count(thread_count_default());
   for (size_t k = 1; k < hashes.size(); ++k) {
     CHECK(hashes[k] == hashes[0]);
     CHECK(sizes[k] == sizes[0]);
@@ -185,24 +185,22 @@ TEST_CASE(
     "form factors that are computed again in every pass give the same bits as kept ones, in less memory") {
   const FaceTable faces = make_lit_room();
   SolverSettings settings = make_settings(1);
-  const Run kept = run_scene(faces, settings, 4);
+  const Solution kept = solve_scene(faces, settings, 4);
   const uint64_t forecast = forecast_bytes(faces, settings, count_starting_patches(faces, settings));
   settings.keep_rows = false;
-  const Run again = run_scene(faces, settings, 4);
-  CHECK(find_solution_hash(again.solution) == find_solution_hash(kept.solution));
-  CHECK(find_power_ledger(again.solution, faces, again.tracer, settings).closure_error ==
-        find_power_ledger(kept.solution, faces, kept.tracer, settings).closure_error);
+  const Solution again = solve_scene(faces, settings, 4);
+  CHECK(find_solution_hash(again) == find_solution_hash(kept));
+  CHECK(find_power_ledger(again).closure_error == find_power_ledger(kept).closure_error);
   // A patch and a cell, four bytes each, a ray.
-  const uint64_t row_bytes = 8 * uint64_t{kept.solution.hits.ray_count} * kept.solution.receivers.size();
-  CHECK(count_bytes(kept.solution) - count_bytes(again.solution) >= row_bytes);
+  const uint64_t row_bytes = 8 * uint64_t{kept.transport.hits.ray_count} * kept.transport.receivers.size();
+  CHECK(count_bytes(kept) - count_bytes(again) >= row_bytes);
   CHECK(forecast - forecast_bytes(faces, settings, count_starting_patches(faces, settings)) >= row_bytes);
 }
 
 TEST_CASE("different seeds differ in the bits and agree within what is promised for means") {
   const FaceTable faces = make_lit_room();
   const SolverSettings one = make_settings(1), other = make_settings(2);
-  CHECK(find_solution_hash(run_scene(faces, one, 2).solution) !=
-        find_solution_hash(run_scene(faces, other, 2).solution));
+  CHECK(find_solution_hash(solve_scene(faces, one, 2)) != find_solution_hash(solve_scene(faces, other, 2)));
   const auto a = find_powers(faces, one, 4), b = find_powers(faces, other, 4);
   double all = 0, difference = 0;
   for (size_t k = 0; k < a.size(); ++k) all += a[k], difference += std::abs(a[k] - b[k]);
@@ -218,8 +216,8 @@ TEST_CASE("the ledger closes better with more rays") {
     for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
       SolverSettings settings = make_settings(seed);
       settings.rays = many ? 1024 : 16;
-      const Run run = run_scene(faces, settings, 8);
-      const double error = find_power_ledger(run.solution, faces, run.tracer, settings).closure_error;
+      const Solution run = solve_scene(faces, settings, 8);
+      const double error = find_power_ledger(run).closure_error;
       squares[many] += error * error / kSeeds;
     }
   // At 256 rays 3e-3 is promised; half as much noise at four times the rays, four times as much at a

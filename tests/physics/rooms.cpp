@@ -38,14 +38,14 @@ TEST_CASE("a cube whose floor emits has the known area means after passes 1, 2 a
     add_box_inward(faces, Vec3(0), Vec3(1), surfaces);
     fit_scene(faces);
     const SolverSettings settings;
-    Run run = run_scene(faces, settings, 0);
+    Solution run = solve_scene(faces, settings, 0);
     for (size_t k = 0; k < 3; ++k) {
       CAPTURE(kPasses[k]);
-      advance_to(run, faces, settings, kPasses[k]);
-      CHECK(std::abs(mean_radiosity(run.solution, faces, kFloor) - expected.means[k][0]) <= kMeanError);
-      CHECK(std::abs(mean_radiosity(run.solution, faces, kCeiling) - expected.means[k][1]) <= kMeanError);
+      advance_to(run, kPasses[k]);
+      CHECK(std::abs(mean_radiosity(run, faces, kFloor) - expected.means[k][0]) <= kMeanError);
+      CHECK(std::abs(mean_radiosity(run, faces, kCeiling) - expected.means[k][1]) <= kMeanError);
       for (const uint32_t wall : {kLeft, kRight, kFront, kBack})
-        CHECK(std::abs(mean_radiosity(run.solution, faces, wall) - expected.means[k][2]) <= kMeanError);
+        CHECK(std::abs(mean_radiosity(run, faces, wall) - expected.means[k][2]) <= kMeanError);
     }
   }
 }
@@ -56,11 +56,11 @@ TEST_CASE("two open plates: means, and the power that leaves between them") {
   add_quad(faces, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}, make_surface(0, 0.8f));
   fit_scene(faces);
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 1);
+  Solution run = solve_scene(faces, settings, 1);
   constexpr double kFactor = 0.199824895698387;  // Howell C-11
-  CHECK(std::abs(mean_radiosity(run.solution, faces, 0) - 1) <= 1e-6);
-  CHECK(std::abs(mean_radiosity(run.solution, faces, 1) - 0.8 * kFactor) <= kMeanError);
-  const PowerLedger ledger = find_power_ledger(run.solution, faces, run.tracer, settings);
+  CHECK(std::abs(mean_radiosity(run, faces, 0) - 1) <= 1e-6);
+  CHECK(std::abs(mean_radiosity(run, faces, 1) - 0.8 * kFactor) <= kMeanError);
+  const PowerLedger ledger = find_power_ledger(run);
   // Each plate is half of the area 1. What the first plate sends past the second is gone at once.
   CHECK(ledger.emitted.g == doctest::Approx(0.5).epsilon(1e-6));
   // 65536 stratified rays: four standard errors of as many random ones are more.
@@ -100,7 +100,7 @@ TEST_CASE("a spherical cap and its base disc exchange light by their areas alone
     if (stacks > 3) CHECK(faceting < 0.3 * faceting_before);
     faceting_before = faceting;
     const SolverSettings settings;
-    Run run = run_scene(faces, settings, 0);
+    Solution run = solve_scene(faces, settings, 0);
     double b_disc = 0, b_cap = 1, sent_disc = 0, sent_cap = 1;
     for (uint32_t pass = 1; pass <= 16; ++pass) {
       const double to_disc = sent_cap, to_cap = back * sent_disc + (1 - back) * sent_cap;
@@ -108,11 +108,11 @@ TEST_CASE("a spherical cap and its base disc exchange light by their areas alone
       b_disc += sent_disc, b_cap += sent_cap;
       if (pass != 1 && pass != 2 && pass != 16) continue;
       CAPTURE(pass);
-      advance_to(run, faces, settings, pass);
+      advance_to(run, pass);
       // On facets the light is uniform but for terms of the faceting itself.
       const double error = kMeanError + 0.2 * faceting;
-      CHECK(std::abs(mean_radiosity(run.solution, faces, disc, disc + 1) - b_disc) <= error);
-      CHECK(std::abs(mean_radiosity(run.solution, faces, cap, disc) - b_cap) <= error);
+      CHECK(std::abs(mean_radiosity(run, faces, disc, disc + 1) - b_disc) <= error);
+      CHECK(std::abs(mean_radiosity(run, faces, cap, disc) - b_cap) <= error);
     }
   }
 }
@@ -134,17 +134,16 @@ TEST_CASE("integrating sphere: light from one cap is the same everywhere else af
   // Facets lie nearer to the centre than the sphere by up to this share, and see each other as much unlike.
   const double faceting = 1 - std::cos(std::numbers::pi / slices) * std::cos(std::numbers::pi / (2 * stacks));
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 0);
+  Solution run = solve_scene(faces, settings, 0);
   for (const uint32_t pass : {1u, 2u, 16u}) {
     CAPTURE(pass);
-    advance_to(run, faces, settings, pass);
+    advance_to(run, pass);
     const double added = lit / all * kRho * (1 - std::pow(kRho, pass)) / (1 - kRho);
     const double error = kMeanError + 3 * faceting * added;
-    CHECK(std::abs(mean_radiosity(run.solution, faces, 0, 3 * slices) - (1 + added)) <= error);
-    CHECK(std::abs(mean_radiosity(run.solution, faces, 3 * slices, stacks * slices) - added) <= error);
+    CHECK(std::abs(mean_radiosity(run, faces, 0, 3 * slices) - (1 + added)) <= error);
+    CHECK(std::abs(mean_radiosity(run, faces, 3 * slices, stacks * slices) - added) <= error);
     // Flux through the whole is exact whatever the facets: sum over bounces of the lit share.
-    CHECK(std::abs(mean_radiosity(run.solution, faces, 0, stacks * slices) - (lit / all + added)) <=
-          kMeanError);
+    CHECK(std::abs(mean_radiosity(run, faces, 0, stacks * slices) - (lit / all + added)) <= kMeanError);
   }
 }
 
@@ -163,7 +162,7 @@ TEST_CASE("concentric spheres exchange light by their areas alone") {
   // The inner one is convex: all that it sends reaches the outer one.
   const double back = inner_area / outer_area;
   const SolverSettings settings;
-  Run run = run_scene(faces, settings, 0);
+  Solution run = solve_scene(faces, settings, 0);
   double b_inner = 1, b_outer = 0, sent_inner = 1, sent_outer = 0;
   for (uint32_t pass = 1; pass <= 16; ++pass) {
     const double to_inner = sent_outer, to_outer = back * sent_inner + (1 - back) * sent_outer;
@@ -171,8 +170,8 @@ TEST_CASE("concentric spheres exchange light by their areas alone") {
     b_inner += sent_inner, b_outer += sent_outer;
     if (pass != 1 && pass != 2 && pass != 16) continue;
     CAPTURE(pass);
-    advance_to(run, faces, settings, pass);
-    CHECK(std::abs(mean_radiosity(run.solution, faces, inner, end) - b_inner) <= kMeanError);
-    CHECK(std::abs(mean_radiosity(run.solution, faces, outer, inner) - b_outer) <= kMeanError);
+    advance_to(run, pass);
+    CHECK(std::abs(mean_radiosity(run, faces, inner, end) - b_inner) <= kMeanError);
+    CHECK(std::abs(mean_radiosity(run, faces, outer, inner) - b_outer) <= kMeanError);
   }
 }

@@ -12,7 +12,8 @@ using namespace patchlight;
 namespace {
 
 Vec3 element_centre(const Solution& s, size_t row) {
-  return cell_centre(s.frames, s.elements.face[row], s.elements.cell[row], s.elements.level[row]);
+  return cell_centre(s.surfaces->frames, s.mesh.elements.face[row], s.mesh.elements.cell[row],
+                     s.mesh.elements.level[row]);
 }
 
 // A room 6 x 3 x 7 with one window in its wall x = 0, that a small far sun shines through, in metres.
@@ -77,18 +78,21 @@ TEST_CASE("the finest leaves lie on the shadow's edge, and none elsewhere") {
                            Vec3(-0.15f, 1, 0.15f)},
                 {}, {});
   const float scale = fit_scene(faces);
-  const Run run = run_scene(faces, {}, 1);
-  const Solution& s = run.solution;
-  const uint32_t last = s.elements.face_first[1];
-  const uint32_t deepest = *std::max_element(s.elements.level.begin(), s.elements.level.begin() + last);
-  const uint32_t start = *std::min_element(s.elements.level.begin(), s.elements.level.begin() + last);
+  const Solution run = solve_scene(faces, {}, 1);
+  const Solution& s = run;
+  const uint32_t last = s.mesh.elements.face_first[1];
+  const uint32_t deepest =
+      *std::max_element(s.mesh.elements.level.begin(), s.mesh.elements.level.begin() + last);
+  const uint32_t start =
+      *std::min_element(s.mesh.elements.level.begin(), s.mesh.elements.level.begin() + last);
   CHECK(deepest >= start + 3);
   size_t on_edge = 0;
   for (uint32_t row = 0; row < last; ++row) {
-    if (s.elements.level[row] < deepest) continue;
+    if (s.mesh.elements.level[row] < deepest) continue;
     const Vec3 p = element_centre(s, row) / scale;
-    const float edge =
-        longest_edge(cell_corners(s.frames, 0, s.elements.cell[row], s.elements.level[row])) / scale;
+    const float edge = longest_edge(cell_corners(s.surfaces->frames, 0, s.mesh.elements.cell[row],
+                                                 s.mesh.elements.level[row])) /
+                       scale;
     // The shadow of the lamp's middle is 0.3 to each side; the penumbra kLamp wide to each side. A leaf is
     // split for a difference to a neighbour, so its parent or its parent's neighbour touches the penumbra, or
     // a leaf beside that for balance: four parents' edges.
@@ -106,15 +110,16 @@ TEST_CASE("the finest leaves lie on the shadow's edge, and none elsewhere") {
                             : k < 32 ? Vec3(t, 0, -0.3f)
                             : k < 48 ? Vec3(0.3f, 0, t)
                                      : Vec3(-0.3f, 0, t));
-    const uint32_t row = find_leaf(s.elements, 0, find_cell(false, find_face_parameters(s.frames, 0, p)));
-    CHECK(s.elements.level[row] + 1u >= deepest);
+    const uint32_t row =
+        find_leaf(s.mesh.elements, 0, find_cell(false, find_face_parameters(s.surfaces->frames, 0, p)));
+    CHECK(s.mesh.elements.level[row] + 1u >= deepest);
   }
 }
 
 TEST_CASE("sun through a window: the spot has the closed form's irradiance, the rest is black in pass 1") {
   const SunRoom room = make_sun_room();
-  const Run run = run_scene(room.faces, {}, 1);
-  const Solution& s = run.solution;
+  const Solution run = solve_scene(room.faces, {}, 1);
+  const Solution& s = run;
   const auto irradiance = element_irradiance(s);
   const auto& sun = room.faces.corners[room.sun];
   // The sun is 0.7 wide, 75 away: its light through a frame's edge up to 11 away blurs by 0.7 * 11 / 75 at
@@ -122,18 +127,18 @@ TEST_CASE("sun through a window: the spot has the closed form's irradiance, the 
   constexpr float kBlur = 0.11f;
   size_t lit = 0, dark = 0;
   double worst = 0;
-  for (uint32_t row = 0; row < s.elements.face_first[room.sun]; ++row) {
-    const uint32_t face = s.elements.face[row];
+  for (uint32_t row = 0; row < s.mesh.elements.face_first[room.sun]; ++row) {
+    const uint32_t face = s.mesh.elements.face[row];
     const Vec3 centre = element_centre(s, row), normal = room.faces.normal[face];
     const float depth = find_depth(room, centre / room.scale);
-    const float reach =
-        kBlur +
-        longest_edge(cell_corners(s.frames, face, s.elements.cell[row], s.elements.level[row])) / room.scale;
+    const float reach = kBlur + longest_edge(cell_corners(s.surfaces->frames, face, s.mesh.elements.cell[row],
+                                                          s.mesh.elements.level[row])) /
+                                    room.scale;
     const bool window_wall = face >= room.window_first && face < room.window_last;
     if (window_wall) {
       // It looks away from the sun.
       REQUIRE(irradiance[row] == Rgb(0));
-      REQUIRE(s.elements.radiosity[row] == Rgb(0));
+      REQUIRE(s.mesh.elements.radiosity[row] == Rgb(0));
     } else if (depth > reach && dot(normal, room.towards_sun) > 0) {
       const double expected = 1e5 * find_point_form_factor(DVec3(centre), DVec3(normal), sun);
       worst = std::max(worst, std::abs(irradiance[row].g / expected - 1));
@@ -151,11 +156,10 @@ TEST_CASE("sun through a window: the spot has the closed form's irradiance, the 
 
 TEST_CASE("sun through a window: the power of the spot is the sun's light on the window") {
   const SunRoom room = make_sun_room();
-  const Run run = run_scene(room.faces, {}, 1);
+  const Solution run = solve_scene(room.faces, {}, 1);
   double found = 0;
   for (uint32_t polygon = 0; polygon < room.sun; ++polygon)
-    found +=
-        polygon_power(run.solution, room.faces, polygon, polygon + 1, element_irradiance(run.solution)).g;
+    found += polygon_power(run, room.faces, polygon, polygon + 1, element_irradiance(run)).g;
   // All that passes the window lands on the room's sides: the form factor from the window, looking out, to
   // the sun.
   FaceTable window;

@@ -36,19 +36,18 @@ SolverSettings make_plain_settings(uint32_t rays) {
   return settings;
 }
 
-Run make_run(const FaceTable& faces, const SolverSettings& settings) {
-  Run run = run_scene(faces, settings, 0);
-  freeze(run.solution, faces, run.tracer, settings);
+Solution make_run(const FaceTable& faces, const SolverSettings& settings) {
+  Solution run = solve_scene(faces, settings, 0);
+  freeze(run);
   return run;
 }
 
-Run solve_by(const char* name, const FaceTable& faces, const SolverSettings& settings) {
-  Run run = make_run(faces, settings);
+Solution solve_by(const char* name, const FaceTable& faces, const SolverSettings& settings) {
+  Solution run = make_run(faces, settings);
   for (const Solver& solver : solvers())
     if (solver.name == std::string_view(name))
-      while (!solver.is_converged(run.solution, settings) && run.solution.passes.size() < 100'000)
-        solver.advance(run.solution, faces, run.tracer, settings);
-  REQUIRE(!run.solution.passes.empty());
+      while (!solver.is_converged(run) && run.log.passes.size() < 100'000) solver.advance(run);
+  REQUIRE(!run.log.passes.empty());
   return run;
 }
 
@@ -56,10 +55,10 @@ Run solve_by(const char* name, const FaceTable& faces, const SolverSettings& set
 std::vector<double> find_patch_polygon_means(const Solution& s, const FaceTable& faces,
                                              std::span<const double> radiosity) {
   std::vector<double> sum(next_polygon(faces), 0), area(sum.size(), 0);
-  for (size_t p = 0; p < s.patches.size(); ++p) {
-    const double exposed_area = double{s.patches.area[p]} * s.patches.exposed[p];
-    sum[faces.polygon[s.patches.face[p]]] += exposed_area * radiosity[p];
-    area[faces.polygon[s.patches.face[p]]] += exposed_area;
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
+    const double exposed_area = double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p];
+    sum[faces.polygon[s.mesh.patches.face[p]]] += exposed_area * radiosity[p];
+    area[faces.polygon[s.mesh.patches.face[p]]] += exposed_area;
   }
   for (size_t k = 0; k < sum.size(); ++k) sum[k] /= area[k];
   return sum;
@@ -76,13 +75,13 @@ std::vector<double> take_green(std::span<const Rgb> values) {
 TEST_CASE("pass by pass the patches follow the Neumann series of all form factors, found another way") {
   const FaceTable faces = make_blocked_room();
   const SolverSettings settings = make_plain_settings(1024);
-  Run run = make_run(faces, settings);
-  Solution& s = run.solution;
-  REQUIRE(s.elements.size() == s.patches.size());
-  const FactorTable factors = find_element_factors(s, faces, run.tracer, settings);
+  Solution run = make_run(faces, settings);
+  Solution& s = run;
+  REQUIRE(s.mesh.elements.size() == s.mesh.patches.size());
+  const FactorTable factors = find_element_factors(s);
   const size_t n = factors.size();
   std::vector<double> added(n), all(n), next(n);
-  for (size_t i = 0; i < n; ++i) all[i] = added[i] = double{faces.emission[s.patches.face[i]].g};
+  for (size_t i = 0; i < n; ++i) all[i] = added[i] = double{faces.emission[s.mesh.patches.face[i]].g};
   // Patch i's row errs by at most 1 / (2 sqrt(rays)) of the range of what is sent, which is at most 1, and
   // so by less than 0.016; a polygon of at least 16 patches by a quarter of that, on average over its passes
   // less than four standard errors: 0.016 times rho <= 0.6, each pass. Strata make it several times smaller.
@@ -92,13 +91,14 @@ TEST_CASE("pass by pass the patches follow the Neumann series of all form factor
     for (uint32_t i = 0; i < n; ++i) {
       next[i] = 0;
       for (uint32_t j = 0; j < n; ++j) next[i] += find_factor(factors, i, j) * added[j];
-      next[i] *= double{faces.reflectance[s.patches.face[i]].g};
+      next[i] *= double{faces.reflectance[s.mesh.patches.face[i]].g};
     }
     added = next;
     for (size_t i = 0; i < n; ++i) all[i] += added[i];
-    advance(s, faces, run.tracer, settings);
+    advance(s);
     const std::vector<double> expected = find_patch_polygon_means(s, faces, all);
-    const std::vector<double> found = find_patch_polygon_means(s, faces, take_green(s.patches.radiosity));
+    const std::vector<double> found =
+        find_patch_polygon_means(s, faces, take_green(s.mesh.patches.radiosity));
     for (size_t k = 0; k < expected.size(); ++k) {
       CAPTURE(pass);
       CAPTURE(k);
@@ -110,18 +110,18 @@ TEST_CASE("pass by pass the patches follow the Neumann series of all form factor
 TEST_CASE("the matrix is the sum of its own Neumann series") {
   const FaceTable faces = make_blocked_room();
   const SolverSettings settings = make_plain_settings(64);
-  const Run run = solve_by("matrix", faces, settings);
-  const Solution& s = run.solution;
-  const FactorTable factors = find_element_factors(s, faces, run.tracer, settings);
+  const Solution run = solve_by("matrix", faces, settings);
+  const Solution& s = run;
+  const FactorTable factors = find_element_factors(s);
   // One more bounce of the solution is the solution. Columns are floats.
-  for (uint32_t i = 0; i < s.elements.size(); ++i)
+  for (uint32_t i = 0; i < s.mesh.elements.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       double received = 0;
-      for (uint32_t j = 0; j < s.elements.size(); ++j)
-        received += find_factor(factors, i, j) * double{s.elements.radiosity[j][k]};
-      const uint32_t face = s.elements.face[i];
+      for (uint32_t j = 0; j < s.mesh.elements.size(); ++j)
+        received += find_factor(factors, i, j) * double{s.mesh.elements.radiosity[j][k]};
+      const uint32_t face = s.mesh.elements.face[i];
       const double expected = double{faces.emission[face][k]} + double{faces.reflectance[face][k]} * received;
-      CHECK(double{s.elements.radiosity[i][k]} == doctest::Approx(expected).epsilon(1e-6));
+      CHECK(double{s.mesh.elements.radiosity[i][k]} == doctest::Approx(expected).epsilon(1e-6));
     }
 }
 
@@ -129,9 +129,9 @@ TEST_CASE("furnace, by the matrix: E = 0.5, rho = 0.5 in a closed box gives B = 
   FaceTable faces;
   add_box_inward(faces, Vec3(0), Vec3(1, 2, 3), make_box_surfaces(make_surface(0.5f, 0.5f)));
   fit_scene(faces);
-  const Run run = solve_by("matrix", faces, make_plain_settings(64));
+  const Solution run = solve_by("matrix", faces, make_plain_settings(64));
   // Rows of exact factors sum to 1 within 1e-6 (contour.h), and B = 0.5 / (1 - 0.5 sum).
-  for (const Rgb& radiosity : run.solution.elements.radiosity)
+  for (const Rgb& radiosity : run.mesh.elements.radiosity)
     CHECK(double{radiosity.g} == doctest::Approx(1).epsilon(2e-6));
 }
 
@@ -139,18 +139,19 @@ TEST_CASE("all solvers end at one solution") {
   const FaceTable faces = make_blocked_room();
   SolverSettings settings = make_plain_settings(1024);
   settings.until = 1e-4;
-  const Run matrix = solve_by("matrix", faces, settings), shooting = solve_by("shooting", faces, settings),
-            passes = solve_by("passes", faces, settings);
+  const Solution matrix = solve_by("matrix", faces, settings),
+                 shooting = solve_by("shooting", faces, settings),
+                 passes = solve_by("passes", faces, settings);
   for (uint32_t polygon = 0; polygon < next_polygon(faces); ++polygon) {
     CAPTURE(polygon);
-    const double expected = mean_radiosity(matrix.solution, faces, polygon);
+    const double expected = mean_radiosity(matrix, faces, polygon);
     // Less than 1e-4 of all that was received is unshot. Bright shots err by less than 1 / (2 sqrt(64)) of
     // the light at a shadow's edge, which few elements have, others by one ray's yes or no: 200 shooters and
     // more than 16 elements a polygon leave 1 / (2 sqrt(3200)) < 1 % at four standard errors less.
-    CHECK(mean_radiosity(shooting.solution, faces, polygon) == doctest::Approx(expected).epsilon(0.01));
+    CHECK(mean_radiosity(shooting, faces, polygon) == doctest::Approx(expected).epsilon(0.01));
     // Rows: as in the test of the series. Elements take the patches' light as a surface over them, which
     // turns off the mean of a patch at the borders of polygons by up to the square of its size, 1 %.
-    CHECK(mean_radiosity(passes.solution, faces, polygon) == doctest::Approx(expected).epsilon(0.03));
+    CHECK(mean_radiosity(passes, faces, polygon) == doctest::Approx(expected).epsilon(0.03));
   }
 }
 
@@ -163,10 +164,10 @@ TEST_CASE("shooting keeps the ledger: what is not absorbed and did not escape is
       add_polygon(open, std::span(faces.corners[f]).first(faces.corner_count[f]),
                   {faces.emission[f], faces.reflectance[f]});
   const SolverSettings settings = make_plain_settings(1024);
-  Run run = make_run(open, settings);
+  Solution run = make_run(open, settings);
   for (const uint32_t count : {1u, 10u, 200u, 1000u}) {
-    while (run.solution.passes.size() < count) advance_shot(run.solution, open, run.tracer, settings);
-    const PowerLedger ledger = find_power_ledger(run.solution, open, run.tracer, settings);
+    while (run.log.passes.size() < count) advance_shot(run);
+    const PowerLedger ledger = find_power_ledger(run);
     CAPTURE(count);
     // Rows of 1024 rays tell what escapes and what the shots bring; both err by a few of a thousand. A
     // single early shot weighs its own patch's row: 1 / (2 sqrt(1024)) of its share.
@@ -179,21 +180,22 @@ TEST_CASE("shooting keeps the ledger: what is not absorbed and did not escape is
 TEST_CASE("a shot takes the largest unshot power, and leaves none there") {
   const FaceTable faces = make_blocked_room();
   const SolverSettings settings = make_plain_settings(64);
-  Run run = make_run(faces, settings);
-  Solution& s = run.solution;
+  Solution run = make_run(faces, settings);
+  Solution& s = run;
   const auto power = [&](size_t p) {
-    const Rgb unshot = s.patches.unshot[p];
-    return double{s.patches.area[p]} * s.patches.exposed[p] * double{unshot.r + unshot.g + unshot.b};
+    const Rgb unshot = s.mesh.patches.unshot[p];
+    return double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] *
+           double{unshot.r + unshot.g + unshot.b};
   };
   for (int shot = 0; shot < 50; ++shot) {
     double most = 0;
-    for (size_t p = 0; p < s.patches.size(); ++p) most = std::max(most, power(p));
+    for (size_t p = 0; p < s.mesh.patches.size(); ++p) most = std::max(most, power(p));
     std::vector<double> before;
-    for (size_t p = 0; p < s.patches.size(); ++p) before.push_back(power(p));
-    const std::vector<uint32_t> shots = s.shots;
-    advance_shot(s, faces, run.tracer, settings);
-    for (size_t p = 0; p < s.patches.size(); ++p)
-      if (s.shots[p] != (shots.empty() ? 0 : shots[p])) {
+    for (size_t p = 0; p < s.mesh.patches.size(); ++p) before.push_back(power(p));
+    const std::vector<uint32_t> shots = s.shooting ? s.shooting->shots : std::vector<uint32_t>{};
+    advance_shot(s);
+    for (size_t p = 0; p < s.mesh.patches.size(); ++p)
+      if (s.shooting->shots[p] != (shots.empty() ? 0 : shots[p])) {
         CHECK(before[p] == doctest::Approx(most).epsilon(1e-6));
         CHECK(power(p) == 0);
       }
@@ -202,15 +204,14 @@ TEST_CASE("a shot takes the largest unshot power, and leaves none there") {
 
 TEST_CASE("the ambient term guesses the end: after few shots the picture is nearer to it") {
   const FaceTable faces = make_blocked_room();
-  SolverSettings settings = make_plain_settings(64);
-  const Run end = solve_by("matrix", faces, settings);
-  const std::vector<Rgb> converged = vertex_radiosity(end.solution, faces);
+  const SolverSettings settings = make_plain_settings(64);
+  const Solution end = solve_by("matrix", faces, settings);
+  const std::vector<Rgb> converged = vertex_radiosity(end);
   const auto find_error = [&](bool ambient) {
-    settings.ambient = ambient;
-    Run run = make_run(faces, settings);
+    Solution run = make_run(faces, settings);
     // Half of the ceiling.
-    while (run.solution.passes.size() < 30) advance_shot(run.solution, faces, run.tracer, settings);
-    const std::vector<Rgb> shown = vertex_radiosity(run.solution, faces);
+    while (run.log.passes.size() < 30) advance_shot(run);
+    const std::vector<Rgb> shown = vertex_radiosity(run, ambient ? find_ambient(run) : Rgb(0));
     double error = 0;
     for (size_t v = 0; v < shown.size(); ++v) error += double{std::abs(shown[v].g - converged[v].g)};
     return error;
@@ -225,6 +226,6 @@ TEST_CASE("where light never dies the matrix has no solution, and says so") {
   add_box_inward(faces, Vec3(0), Vec3(1), surfaces);
   fit_scene(faces);
   const SolverSettings settings = make_plain_settings(64);
-  Run run = make_run(faces, settings);
-  CHECK_THROWS_AS(solve_matrix(run.solution, faces, run.tracer, settings), std::domain_error);
+  Solution run = make_run(faces, settings);
+  CHECK_THROWS_AS(solve_matrix(run), std::domain_error);
 }

@@ -2,6 +2,9 @@
 #include "tools/base/format.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
 
 namespace patchlight {
 
@@ -35,6 +38,13 @@ std::string format_watts(double watts) {
 
 std::string name_steps(std::string_view step) {
   return fmt::format("{}{}", step, step == "pass" ? "es" : "s");
+}
+
+std::string name_solvers(bool Solver::*able) {
+  std::vector<std::string_view> names;
+  for (const Solver& solver : solvers())
+    if (solver.*able) names.push_back(solver.name);
+  return fmt::format("{}", fmt::join(names, " or "));
 }
 
 std::string quote_csv(const std::string& id) {

@@ -1,6 +1,8 @@
 // Numbers as people read them, the same in every locale.
 #pragma once
 
+#include "engine/solvers.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,6 +16,9 @@ std::string format_watts(double watts);      // "1.23 kW"
 
 // More than one step of a solver: passes, shots.
 std::string name_steps(std::string_view step);
+
+// The names of all solvers that can do that: "shooting", "a or b".
+std::string name_solvers(bool Solver::*able);
 
 // An id as a field of CSV: names of repeated parts hold commas, lamps[0,1,0].
 std::string quote_csv(const std::string& id);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dsl/load.h"
+#include "engine/solvers.h"
 #include "tools/base/look.h"
 
 #include <any>
@@ -25,9 +26,9 @@ struct Options {
   std::optional<uint32_t> passes;
   std::vector<uint32_t> snapshots;  // ascending, no repeats; empty: not asked
   bool snapshots_all = false;
-  std::string solver;           // a row of solvers(); empty: the first
-  std::vector<uint32_t> shots;  // shooting: pictures after these, ascending; empty: its end
-  bool ambient = false;         // shooting
+  const Solver* solver = &solvers()[0];
+  std::vector<uint32_t> shots;  // solvers with many steps: pictures after these, ascending; empty: the end
+  bool ambient = false;         // solvers that leave light unshot: pictures show a guess of it, too
   std::string camera;
   std::optional<std::array<uint32_t, 2>> size;  // width, height, pixels
   std::optional<Shading> shading;

@@ -1,7 +1,6 @@
-// Signals -> request_cancel().
+// Signals -> Workers::request_cancel().
 #include "tools/base/stop.h"
 
-#include "engine/parallel.h"
 #include "tools/base/files.h"
 
 #include <unistd.h>
@@ -12,20 +11,21 @@ namespace patchlight {
 namespace {
 
 std::atomic<int> signal_seen{0};
+std::atomic<Workers*> signal_workers{nullptr};
 
 void on_signal(int signal) {
   if (signal_seen.exchange(signal) != 0) {
     remove_temporaries();
     _exit(128 + signal);
   }
-  request_cancel();
+  signal_workers.load()->request_cancel();
 }
 
 }  // namespace
 
-StopSignals::StopSignals() {
+StopSignals::StopSignals(Workers& stopped) : workers(stopped) {
   signal_seen.store(0);
-  clear_cancel();
+  signal_workers.store(&workers);
   struct sigaction action = {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
@@ -35,9 +35,9 @@ StopSignals::StopSignals() {
 }
 
 StopSignals::~StopSignals() {
-  clear_cancel();
   sigaction(SIGINT, &before_int, nullptr);
   sigaction(SIGTERM, &before_term, nullptr);
+  workers.clear_cancel();
 }
 
 int stop_signal() noexcept { return signal_seen.load(); }

@@ -1,15 +1,18 @@
 // SIGINT and SIGTERM -> a run that stops between two rows of work and keeps what is finished.
 #pragma once
 
+#include "engine/parallel.h"
+
 #include <signal.h>
 
 namespace patchlight {
 
-// While it lives, the first signal asks the engine to cancel, and the second ends the process at once,
+// While it lives, the first signal asks these workers to stop, and the second ends the process at once,
 // without leaving temporary files. Restores the handlers of before. One at a time.
 struct StopSignals {
   struct sigaction before_int, before_term;
-  StopSignals();
+  Workers& workers;
+  explicit StopSignals(Workers& stopped);
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
   ~StopSignals();

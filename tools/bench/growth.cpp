@@ -1,5 +1,7 @@
 // One scene, finer and finer, to times and bytes, and to the power of the number of patches that they follow.
+#include "engine/forecast.h"
 #include "engine/parallel.h"
+#include "engine/sizes.h"
 #include "tools/base/format.h"
 #include "tools/base/memory.h"
 #include "tools/bench/apart.h"
@@ -20,13 +22,13 @@ constexpr size_t kStepsMin = 3;
 constexpr double kStepSeconds = 10;  // a step that took so long is not repeated
 
 Json solve_once(const Scene& scene, const SolverSettings& settings, size_t threads) {
-  set_thread_count(threads);
-  const Tracer tracer = make_tracer(scene.faces);
+  const WorkersScope scope(std::make_shared<Workers>(threads));
+  const auto surfaces = make_surfaces(scene.faces);
   const Times begin = read_clocks();
-  const Solution solution = solve_whole(scene.faces, tracer, settings);
+  const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;
-  return {{"patches", solution.elements.size()},
-          {"form_factor_patches", solution.patches.size()},
+  return {{"patches", solution.mesh.elements.size()},
+          {"form_factor_patches", solution.mesh.patches.size()},
           {"processor", spent.processor},
           {"wall", spent.wall},
           {"peak", find_memory_peak()}};

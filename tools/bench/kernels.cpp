@@ -7,6 +7,7 @@
 #include "engine/parallel.h"
 #include "engine/ray_tape.h"
 #include "engine/rows.h"
+#include "engine/solution.h"
 #include "engine/sources.h"
 #include "engine/vertices.h"
 #include "tools/bench/apart.h"
@@ -34,7 +35,7 @@ constexpr size_t kMemoryWords = size_t{1} << 25;  // 256 MB: far more than cache
 struct Bench {
   Scene scene;
   SolverSettings settings = {};
-  Tracer tracer;
+  std::shared_ptr<const Surfaces> surfaces = {};
   Solution start = {};              // before the first round
   Solution refined = {};            // after the last one; the mesh is not frozen
   Solution passed = {};             // after pass 2
@@ -53,7 +54,7 @@ struct Scratch {
   LampViewTable views;
   std::vector<Rgb> direct, irradiance;
   std::vector<float> error;
-  PatchTable patches;
+  std::vector<float> exposed;
   HitTable hits;
   Solution solution;
   std::vector<uint32_t> parent;
@@ -66,49 +67,47 @@ struct Tapes {
 };
 
 uint64_t direct_light(Scratch& scratch, const Bench& b) {
-  const PatchTable& elements = b.refined.elements;
+  const PatchTable& elements = b.refined.mesh.elements;
   scratch.views.settled.assign(elements.size(), 0);  // every lamp gets rays
   scratch.views.seen.assign(elements.size(), 0);
   scratch.views.hidden.assign(elements.size(), 0);
   scratch.direct.resize(elements.size());
   scratch.error.resize(elements.size());
-  return find_direct({scratch.direct, scratch.error, scratch.views}, b.rows, elements, b.refined.aims,
-                     b.scene.faces, b.refined.frames, b.tracer, {}, b.settings.seed);
+  return find_direct({scratch.direct, scratch.error, scratch.views}, b.rows,
+                     {*b.surfaces, elements, b.refined.transport.light_lists}, {}, b.settings.seed);
 }
 
 uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {
-  return cast_rows(scratch.hits, scratch.patches, all_rows(b.refined.receivers.size()), b.refined.patch_index,
-                   b.refined.receivers, b.scene.faces, b.refined.frames, b.tracer,
-                   {count_row_rays(b.settings), b.settings.seed});
+  return cast_rows(scratch.hits, scratch.exposed, all_rows(b.refined.transport.receivers.size()),
+                   get_rows(b.refined).by, true);
 }
 
 uint64_t second_pass(Scratch& scratch, const Bench& b) {
-  return gather_elements(scratch.irradiance, get_rows(b.passed, b.scene.faces, b.tracer, b.settings),
-                         {b.passed.elements, b.passed.element_first}, b.sent, b.sources);
+  return gather_elements(scratch.irradiance, get_rows(b.passed),
+                         {b.passed.mesh.elements, b.passed.mesh.element_first}, b.sent, b.sources);
 }
 
 Bench make_bench(const std::string& path, uint64_t max_patches) {
   Scene scene = load_quietly(path);
-  Tracer tracer = make_tracer(scene.faces);
-  Bench b{.scene = std::move(scene), .tracer = std::move(tracer)};
+  Bench b{.scene = std::move(scene)};
+  b.surfaces = make_surfaces(b.scene.faces);
   b.settings = settings_within(b.scene, max_patches);
-  const FaceTable& faces = b.scene.faces;
-  b.start = make_solution(faces, b.tracer, b.settings);
+  b.start = make_solution(b.surfaces, b.settings);
   b.refined = b.start;
-  while (refine(b.refined, faces, b.tracer, b.settings)) {
+  while (refine(b.refined)) {
   }
-  b.rows = all_rows(b.refined.elements.size());
+  b.rows = all_rows(b.refined.mesh.elements.size());
   b.passed = b.refined;
-  freeze(b.passed, faces, b.tracer, b.settings);
-  advance(b.passed, faces, b.tracer, b.settings);
-  b.sent = b.passed.elements.unshot;
-  b.sources = make_sources(b.passed.elements, faces, b.passed.frames, b.sent, kSourceCount);
-  advance(b.passed, faces, b.tracer, b.settings);
+  freeze(b.passed);
+  advance(b.passed);
+  b.sent = b.passed.mesh.elements.unshot;
+  b.sources = make_sources(b.passed.mesh.elements, *b.surfaces, b.sent, kSourceCount);
+  advance(b.passed);
   const Camera& camera = b.scene.cameras.front();
   b.view = {Vec3(camera.eye), Vec3(camera.target), Vec3(camera.up), static_cast<float>(camera.fov_degrees),
             camera.width,     camera.height};
-  b.film = make_film(b.passed, faces, b.tracer, b.view, {});
-  b.vertex_values = vertex_radiosity(b.passed, faces);
+  b.film = make_film(make_scenery(b.passed), b.view, {});
+  b.vertex_values = vertex_radiosity(b.passed);
   b.picture = {b.film.width, b.film.height, expose(b.film, b.vertex_values)};
   b.memory.assign(kMemoryWords, 1);
   return b;
@@ -117,16 +116,16 @@ Bench make_bench(const std::string& path, uint64_t max_patches) {
 // What each ray kernel asks of the tracer.
 Tapes record_tapes(Scratch& scratch, const Bench& b) {
   Tapes tapes;
-  set_thread_count(1);
-  record_rays(b.tracer, &tapes.direct);
+  const WorkersScope scope(std::make_shared<Workers>(1));
+  record_rays(b.surfaces->tracer, &tapes.direct);
   direct_light(scratch, b);
-  record_rays(b.tracer, &tapes.rows);
+  record_rays(b.surfaces->tracer, &tapes.rows);
   rows_of_patches(scratch, b);
-  record_rays(b.tracer, &tapes.aimed);
+  record_rays(b.surfaces->tracer, &tapes.aimed);
   second_pass(scratch, b);
-  record_rays(b.tracer, &tapes.film);
-  make_film(b.passed, b.scene.faces, b.tracer, b.view, {});
-  record_rays(b.tracer, nullptr);
+  record_rays(b.surfaces->tracer, &tapes.film);
+  make_film(make_scenery(b.passed), b.view, {});
+  record_rays(b.surfaces->tracer, nullptr);
   return tapes;
 }
 
@@ -145,7 +144,7 @@ void add_ray_kernels(std::vector<Kernel>& kernels, const std::string& name, cons
   const auto rays = static_cast<double>(count_kept_rays(track));
   const auto add = [&](const std::string& what, auto step) {
     kernels.push_back(ray_kernel(name + ": " + what, [&b, replay, rays, step] {
-      step(b.tracer, *replay);
+      step(b.surfaces->tracer, *replay);
       return rays;
     }));
   };
@@ -164,7 +163,6 @@ void add_ray_kernels(std::vector<Kernel>& kernels, const std::string& name, cons
 }
 
 std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& tapes, size_t threads) {
-  const FaceTable& faces = b.scene.faces;
   std::vector<Kernel> kernels;
   if (tapes.direct.visibility.ray_count > 0)
     add_ray_kernels(kernels, "find_direct", b, tapes.direct.visibility, true, RayOrder::kCoherent,
@@ -176,13 +174,12 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
                     [&] { return static_cast<double>(second_pass(scratch, b)); }, {});
   add_ray_kernels(
       kernels, "make_film", b, tapes.film.nearest, false, RayOrder::kCoherent,
-      [&] { return static_cast<double>(make_film(b.passed, faces, b.tracer, b.view, {}).ray_count); }, {});
+      [&] { return static_cast<double>(make_film(make_scenery(b.passed), b.view, {}).ray_count); }, {});
 
-  const auto factors = static_cast<double>(b.passed.hits.patch.size());
+  const auto factors = static_cast<double>(b.passed.transport.hits.patch.size());
   kernels.push_back({"gather_patches", "factors/s", threads, Clock::kWall, [&, factors] {
-                       gather_patches(scratch.irradiance, {},
-                                      get_rows(b.passed, b.scene.faces, b.tracer, b.settings),
-                                      b.passed.patches.unshot);
+                       gather_patches(scratch.irradiance, {}, get_rows(b.passed),
+                                      b.passed.mesh.patches.unshot);
                        return factors;
                      }});
   kernels.push_back({"memory read", "B/s", threads, Clock::kWall, [&] {
@@ -203,25 +200,30 @@ std::vector<Kernel> list_kernels(Scratch& scratch, const Bench& b, const Tapes& 
 
   kernels.push_back({"refine, rays included", "splits/s", 1, Clock::kProcessor,
                      [&] {
-                       while (refine(scratch.solution, faces, b.tracer, b.settings)) {
+                       while (refine(scratch.solution)) {
                        }
                        double splits = 0;
-                       for (const RoundReport& round : scratch.solution.rounds)
+                       for (const RoundReport& round : scratch.solution.log.rounds)
                          splits += static_cast<double>(round.split_count);
                        return splits;
                      },
-                     [&] { scratch.solution = b.start; }});
+                     [&] {
+                       scratch.solution = b.start;
+                       scratch.solution.workers = current_workers();
+                     }});
   kernels.push_back({"split_leaves", "splits/s", 1, Clock::kProcessor, [&] {
-                       const std::vector<uint8_t> marks(b.start.elements.size(), 1);
-                       scratch.leaves = split_leaves(b.start.elements, b.start.frames, marks, scratch.parent);
+                       const std::vector<uint8_t> marks(b.start.mesh.elements.size(), 1);
+                       scratch.leaves =
+                           split_leaves(b.start.mesh.elements, b.surfaces->frames, marks, scratch.parent);
                        return static_cast<double>(marks.size());
                      }});
-  kernels.push_back({"make_vertices and reconstruct", "patches/s", 1, Clock::kProcessor, [&] {
-                       const VertexTable vertices =
-                           make_vertices(b.refined.elements, b.refined.frames, b.refined.links);
-                       reconstruct(vertices, b.refined.elements, b.refined.frames, b.refined.direct, {3, 3});
-                       return static_cast<double>(b.refined.elements.size());
-                     }});
+  kernels.push_back(
+      {"make_vertices and reconstruct", "patches/s", 1, Clock::kProcessor, [&] {
+         const VertexTable vertices =
+             make_vertices(b.refined.mesh.elements, b.surfaces->frames, b.surfaces->links);
+         reconstruct({vertices, b.refined.mesh.elements, b.surfaces->frames}, b.refined.light.direct, {3, 3});
+         return static_cast<double>(b.refined.mesh.elements.size());
+       }});
   const double pixels = static_cast<double>(b.film.width) * b.film.height;
   kernels.push_back({"expose", "pixels/s", 1, Clock::kProcessor, [&, pixels] {
                        expose(b.film, b.vertex_values);
@@ -266,18 +268,19 @@ Json make_ratios(const std::vector<Kernel>& kernels, const std::vector<std::vect
 }
 
 Json measure(const BenchOptions& options) {
-  const size_t threads = set_thread_count(options.threads);
+  const WorkersScope scope(std::make_shared<Workers>(options.threads));
+  const size_t threads = current_workers()->thread_count();
   const Bench b = make_bench(options.scenes.front(), options.max_patches);
   Scratch scratch;
-  scratch.patches = b.refined.patches;
+  scratch.exposed = b.refined.mesh.patches.exposed;
   scratch.memory.assign(kMemoryWords, 2);
-  scratch.irradiance.resize(b.passed.patches.size());
+  scratch.irradiance.resize(b.passed.mesh.patches.size());
   const Tapes tapes = record_tapes(scratch, b);
   const std::vector<Kernel> kernels = list_kernels(scratch, b, tapes, threads);
   const auto rates = measure_kernels(kernels, options.repetitions, options.seconds);
   Json result = {{"scene", options.scenes.front()},
-                 {"patches", b.refined.elements.size()},
-                 {"form_factor_patches", b.refined.patches.size()},
+                 {"patches", b.refined.mesh.elements.size()},
+                 {"form_factor_patches", b.refined.mesh.patches.size()},
                  {"kernels", Json::array()}};
   for (size_t k = 0; k < kernels.size(); ++k) {
     Json figure = make_figure(rates[k], kernels[k].unit);

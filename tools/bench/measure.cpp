@@ -21,7 +21,7 @@ struct Collector : benchmark::BenchmarkReporter {
 };
 
 void run_kernel(const Kernel& kernel, benchmark::State& state) {
-  set_thread_count(kernel.thread_count);
+  const WorkersScope scope(std::make_shared<Workers>(kernel.thread_count));
   double work = 0;
   for (auto _ : state) {
     if (kernel.prepare) {

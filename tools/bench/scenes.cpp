@@ -80,14 +80,15 @@ double find_bare_seconds(const Tracer& tracer, const TapeTrack& track,
 // One solve on one thread, with its rays on tape: their true number, what bare Embree would need for them,
 // and the error of the answer where it is known.
 Json solve_on_tape(const std::string& path, uint64_t max_patches) {
-  set_thread_count(1);
+  const WorkersScope scope(std::make_shared<Workers>(1));
   const Scene scene = load_quietly(path);
   const SolverSettings settings = settings_within(scene, max_patches);
-  const Tracer tracer = make_tracer(scene.faces);
+  const auto surfaces = make_surfaces(scene.faces);
+  const Tracer& tracer = surfaces->tracer;
   RayTape tape;
   record_rays(tracer, &tape);
   const Times begin = read_clocks();
-  const Solution solution = solve_whole(scene.faces, tracer, settings);
+  const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;
   record_rays(tracer, nullptr);
   const double bare = find_bare_seconds(tracer, tape.visibility, replay_blocked) +

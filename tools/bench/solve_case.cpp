@@ -2,6 +2,7 @@
 #include "tools/bench/solve_case.h"
 
 #include "dsl/load.h"
+#include "engine/sizes.h"
 #include "tools/render/expectations.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ bool is_closed(const Solution& solution) {
   const auto is_none = [](const std::vector<uint32_t>& column) {
     return std::all_of(column.begin(), column.end(), [](uint32_t count) { return count == 0; });
   };
-  return is_none(solution.hits.nothing) && is_none(solution.hits.back);
+  return is_none(solution.transport.hits.nothing) && is_none(solution.transport.hits.back);
 }
 
 bool is_furnace(const Solution& solution, const FaceTable& faces) {
@@ -35,12 +36,12 @@ double find_furnace_error(const Solution& solution, const FaceTable& faces) {
   double error = 0;
   for (int channel = 0; channel < 3; ++channel) {
     double exact = 0;
-    for (size_t bounce = 0; bounce <= solution.passes.size(); ++bounce)
+    for (size_t bounce = 0; bounce <= solution.log.passes.size(); ++bounce)
       exact += double{faces.emission[0][channel]} *
                std::pow(double{faces.reflectance[0][channel]}, static_cast<double>(bounce));
     if (exact == 0) continue;
-    for (size_t row = 0; row < solution.elements.size(); ++row)
-      error = std::max(error, std::abs(solution.elements.radiosity[row][channel] / exact - 1));
+    for (size_t row = 0; row < solution.mesh.elements.size(); ++row)
+      error = std::max(error, std::abs(solution.mesh.elements.radiosity[row][channel] / exact - 1));
   }
   return error;
 }
@@ -74,12 +75,12 @@ SolverSettings settings_within(const Scene& scene, uint64_t max_patches) {
   return settings;
 }
 
-Solution solve_whole(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings) {
-  Solution solution = make_solution(faces, tracer, settings);
-  while (refine(solution, faces, tracer, settings)) {
+Solution solve_whole(std::shared_ptr<const Surfaces> surfaces, const SolverSettings& settings) {
+  Solution solution = make_solution(std::move(surfaces), settings);
+  while (refine(solution)) {
   }
-  do advance(solution, faces, tracer, settings);
-  while (!is_converged(solution, settings) && solution.passes.size() < settings.pass_count_max);
+  do advance(solution);
+  while (!is_converged(solution) && solution.log.passes.size() < settings.pass_count_max);
   return solution;
 }
 
@@ -103,7 +104,7 @@ std::optional<double> find_known_error(const Solution& solution, const Scene& sc
   if (is_furnace(solution, scene.faces)) return find_furnace_error(solution, scene.faces);
   std::optional<double> error;
   for (const Expectation& expectation : scene.expectations) {
-    if (expectation.pass != solution.passes.size()) continue;
+    if (expectation.pass != solution.log.passes.size()) continue;
     const double exact = largest(expectation.radiosity);
     if (exact <= 0) continue;
     const DRgb difference = find_mean_radiosity(solution, scene, expectation) - DRgb(expectation.radiosity);

@@ -22,7 +22,7 @@ Scene load_quietly(const std::string& path);
 SolverSettings settings_within(const Scene& scene, uint64_t max_patches);
 
 // From starting patches to the last pass.
-Solution solve_whole(const FaceTable& faces, const Tracer& tracer, const SolverSettings& settings);
+Solution solve_whole(std::shared_ptr<const Surfaces> surfaces, const SolverSettings& settings);
 
 // Settings for a mesh of at most `count` patches and not many fewer: half of them from the start, least sizes
 // in proportion. None where the scene has too many faces for that.

@@ -16,14 +16,14 @@ constexpr uint64_t kLarge = 1'000'000;
 constexpr size_t kRunsMax = 3;  // a run takes a while
 
 Json solve_on(const Scene& scene, const SolverSettings& settings, size_t threads) {
-  set_thread_count(threads);
-  const Tracer tracer = make_tracer(scene.faces);
+  const WorkersScope scope(std::make_shared<Workers>(threads));
+  const auto surfaces = make_surfaces(scene.faces);
   const Times begin = read_clocks();
-  const Solution solution = solve_whole(scene.faces, tracer, settings);
+  const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;
   return {{"wall", spent.wall},
           {"processor", spent.processor},
-          {"patches", solution.elements.size()},
+          {"patches", solution.mesh.elements.size()},
           {"hash", fmt::format("{:016x}", find_solution_hash(solution))}};
 }
 

@@ -30,13 +30,13 @@ void put_three(std::string& line, const Vector& values) {
 void export_csv(NewFile& file, const FinishedRun& run) {
   const Scene& scene = run.scene;
   const Solution& solution = run.solution;
-  const PatchTable& elements = solution.elements;
+  const PatchTable& elements = solution.mesh.elements;
   const FaceTable& faces = scene.faces;
   const double area_scale = scene.units_per_length * scene.units_per_length;
   std::string text = kHeader;
   for (size_t row = 0; row < elements.size(); ++row) {
     const uint32_t face = elements.face[row];
-    const DVec3 centre(cell_centre(solution.frames, face, elements.cell[row], elements.level[row]));
+    const DVec3 centre(cell_centre(solution.surfaces->frames, face, elements.cell[row], elements.level[row]));
     text += quote_csv(scene.polygons.id[faces.polygon[face]]);
     text += ',';
     text += std::to_string(elements.level[row]);

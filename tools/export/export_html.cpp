@@ -118,7 +118,7 @@ Block make_polygon_block(const Scene& scene) {
 }
 
 std::vector<Block> make_blocks(const Scene& scene, const Solution& solution, const PassRecord& record) {
-  const PatchTable& elements = solution.elements;
+  const PatchTable& elements = solution.mesh.elements;
   const LitMesh mesh = make_lit_mesh(scene, solution, Shading::kSmooth);
   std::string levels(elements.level.begin(), elements.level.end()), counts;
   for (size_t row = 0; row < elements.size(); ++row)
@@ -164,7 +164,7 @@ Json make_header(const FinishedRun& run, std::span<const Block> blocks) {
                  {"units_per_length", scene.units_per_length},
                  {"exposure", *run.report.exposure_ev},
                  {"shading", scene.output.shading == Shading::kFlat ? "flat" : "smooth"},
-                 {"step", run.record.step},
+                 {"step", run.record.solver->step},
                  {"passes", run.record.pass}};
   for (const Camera& camera : scene.cameras)
     header["cameras"].push_back({{"name", camera.name},

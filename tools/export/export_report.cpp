@@ -71,7 +71,7 @@ Json make_objects(const ObjectPowerTable& power, const Scene& scene) {
 uint64_t count_rays(const RunReport& report, const Solution& solution) {
   // Not the sums of rounds and passes: a pass names the rays whose results it uses first, cast in a round or
   // not.
-  return report.film_rays + solution.direct_ray_count + solution.transport_ray_count;
+  return report.film_rays + solution.log.direct_ray_count + solution.log.transport_ray_count;
 }
 
 std::string format_report(const RunReport& report, const Scene& scene, const Solution& solution) {
@@ -86,18 +86,18 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
   json["units"] = scene.units;
   json["polygons"] = scene.polygons.size();
   json["faces"] = scene.faces.size();
-  json["patches"] = solution.elements.size();
+  json["patches"] = solution.mesh.elements.size();
   // The coarse tree that carries light between surfaces, and the rows of form factors that its patches share.
-  json["transport"] = {{"patches", solution.patches.size()},
-                       {"rows", solution.receivers.size()},
-                       {"rays_per_row", solution.hits.ray_count},
+  json["transport"] = {{"patches", solution.mesh.patches.size()},
+                       {"rows", solution.transport.receivers.size()},
+                       {"rays_per_row", solution.transport.hits.ray_count},
                        {"form_factors", scene.solver.keep_rows ? "cached" : "recompute"}};
   json["threads"] = report.thread_count;
   if (report.solution_hash) json["solution_hash"] = fmt::format("{:016x}", *report.solution_hash);
   if (report.exposure_ev) json["exposure"] = *report.exposure_ev;
 
   json["rounds"] = Json::array();
-  for (const RoundReport& round : solution.rounds)
+  for (const RoundReport& round : solution.log.rounds)
     json["rounds"].push_back({{"round", round.round},
                               {"patches", round.patch_count},
                               {"split", round.split_count},
@@ -105,12 +105,12 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                               {"seconds", round.seconds}});
   const std::string step(report.solver.step), steps = name_steps(step);
   json["solver"] = report.solver.name;
-  json["form_factors_found"] = solution.factor_count;
+  json["form_factors_found"] = solution.log.factor_count;
   json[steps] = Json::array();
   // Shots are many: a thousand of them tell how it went.
-  const size_t count = solution.passes.size(), stride = (count + kStepsMax - 1) / kStepsMax;
+  const size_t count = solution.log.passes.size(), stride = (count + kStepsMax - 1) / kStepsMax;
   for (size_t k = 0; k < count; ++k)
-    if (const PassReport& pass = solution.passes[k]; k % stride == 0 || k + 1 == count)
+    if (const PassReport& pass = solution.log.passes[k]; k % stride == 0 || k + 1 == count)
       json[steps].push_back({{step, pass.pass},
                              {"rays", pass.ray_count},
                              {"added_power", rgb(pass.added_power * power_scale)},

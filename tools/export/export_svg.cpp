@@ -15,11 +15,11 @@ PlotText describe_run(const FinishedRun& run) {
 }  // namespace
 
 void export_convergence(NewFile& file, const FinishedRun& run) {
-  append_file(file, plot_convergence(run.solution.passes, describe_run(run)));
+  append_file(file, plot_convergence(run.solution.log.passes, describe_run(run)));
 }
 
 void export_rounds(NewFile& file, const FinishedRun& run) {
-  append_file(file, plot_rounds(run.solution.rounds, describe_run(run)));
+  append_file(file, plot_rounds(run.solution.log.rounds, describe_run(run)));
 }
 
 }  // namespace patchlight

@@ -14,7 +14,8 @@ namespace {
 constexpr double kLeakMost = 0.01;
 
 bool has_rows(const Solution& solution) {
-  return solution.receivers.receiver_of.size() == solution.patches.size() && solution.hits.size() > 0;
+  return solution.transport.receivers.receiver_of.size() == solution.mesh.patches.size() &&
+         solution.transport.hits.size() > 0;
 }
 
 std::string format_point(const Scene& scene, Vec3 p) {
@@ -27,12 +28,12 @@ std::string format_point(const Scene& scene, Vec3 p) {
 }  // namespace
 
 std::vector<double> find_row_sums(const Solution& solution, const FaceTable& faces, size_t polygon_count) {
-  const PatchTable& patches = solution.patches;
-  const HitTable& hits = solution.hits;
+  const PatchTable& patches = solution.mesh.patches;
+  const HitTable& hits = solution.transport.hits;
   std::vector<double> area(polygon_count, 0), met(polygon_count, 0);
   if (has_rows(solution))
     for (size_t patch = 0; patch < patches.size(); ++patch) {
-      const size_t row = solution.receivers.receiver_of[patch];
+      const size_t row = solution.transport.receivers.receiver_of[patch];
       const uint32_t cast = hits.valid_count(row), hit = cast - hits.nothing[row];
       if (cast == 0) continue;
       const uint32_t polygon = faces.polygon[patches.face[patch]];
@@ -46,8 +47,8 @@ std::vector<double> find_row_sums(const Solution& solution, const FaceTable& fac
 
 std::vector<double> find_reciprocity_errors(const Solution& solution, const FaceTable& faces,
                                             size_t polygon_count) {
-  const PatchTable& patches = solution.patches;
-  const HitTable& hits = solution.hits;
+  const PatchTable& patches = solution.mesh.patches;
+  const HitTable& hits = solution.transport.hits;
   if (!has_rows(solution) || hits.patch.empty() || polygon_count > kReciprocityMax) return {};
   const size_t n = polygon_count;
   std::vector<double> area(n, 0), exchange(n * n, 0);
@@ -59,7 +60,7 @@ std::vector<double> find_reciprocity_errors(const Solution& solution, const Face
   for_rows(n, 1, [&](size_t begin, size_t end) {
     for (size_t polygon = begin; polygon < end; ++polygon)
       for (uint32_t p = first_patch(polygon); p < first_patch(polygon + 1); ++p) {
-        const size_t row = solution.receivers.receiver_of[p];
+        const size_t row = solution.transport.receivers.receiver_of[p];
         const uint32_t valid = hits.valid_count(row);
         const double exposed_area = double{patches.area[p]} * patches.exposed[p];
         area[polygon] += exposed_area;
@@ -80,11 +81,10 @@ std::vector<double> find_reciprocity_errors(const Solution& solution, const Face
   return errors;
 }
 
-Health find_health(const Scene& scene, const Solution& solution, const Tracer& tracer) {
+Health find_health(const Scene& scene, const Solution& solution) {
   const size_t polygons = scene.polygons.size();
   return {find_row_sums(solution, scene.faces, polygons),
-          find_reciprocity_errors(solution, scene.faces, polygons),
-          find_leaks(solution, scene.faces, tracer, scene.solver.seed)};
+          find_reciprocity_errors(solution, scene.faces, polygons), find_leaks(solution)};
 }
 
 std::vector<Diagnostic> describe_leaks(const Scene& scene, const LeakReport& leaks) {

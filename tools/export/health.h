@@ -24,7 +24,7 @@ struct Health {
   std::vector<double> row_sums, reciprocity_errors;  // a row a polygon
   LeakReport leaks;
 };
-Health find_health(const Scene& scene, const Solution& solution, const Tracer& tracer);
+Health find_health(const Scene& scene, const Solution& solution);
 
 // A warning (light-leak) where a scene that looks closed loses more than a hundredth of its light through
 // cracks, with the edge that most of it passes; its severity is kWarning. Empty where there is none.

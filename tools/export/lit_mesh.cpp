@@ -26,12 +26,12 @@ struct Ring {
 
 // In double from the face's corners, whose weights are 0 and 1 at the corners themselves: there it is exact.
 Vec3 find_vertex_position(const Solution& s, const FaceTable& faces, uint32_t vertex) {
-  const uint32_t row = s.element_vertices.vertex_leaf[s.element_vertices.vertex_first[vertex]];
-  const auto& corner = s.element_vertices.leaf_vertex[row];
+  const uint32_t row = s.mesh.element_vertices.vertex_leaf[s.mesh.element_vertices.vertex_first[vertex]];
+  const auto& corner = s.mesh.element_vertices.leaf_vertex[row];
   const auto k = static_cast<size_t>(std::find(corner.begin(), corner.end(), vertex) - corner.begin());
-  const uint32_t face = s.elements.face[row];
-  const bool triangle = s.frames.triangle[face];
-  const DVec2 uv(cell_corner_parameters(triangle, s.elements.cell[row], s.elements.level[row])[k]);
+  const uint32_t face = s.mesh.elements.face[row];
+  const bool triangle = s.surfaces->frames.triangle[face];
+  const DVec2 uv(cell_corner_parameters(triangle, s.mesh.elements.cell[row], s.mesh.elements.level[row])[k]);
   const auto& p = faces.corners[face];
   const DVec3 a(p[0]), b(p[1]), c(p[2]), d(p[3]);
   if (triangle) return Vec3((1 - uv.x - uv.y) * a + uv.x * b + uv.y * c);
@@ -40,10 +40,11 @@ Vec3 find_vertex_position(const Solution& s, const FaceTable& faces, uint32_t ve
 
 // The corner in the middle of a leaf's edge that two finer neighbours share, or kNone.
 uint32_t find_hanging(const Solution& s, uint32_t row, uint32_t edge, uint32_t from, uint32_t to) {
-  const auto across = find_neighbours(s.elements, s.frames, s.joints, row, edge);
+  const auto across =
+      find_neighbours(s.mesh.elements, s.surfaces->frames, s.surfaces->smooth_links, row, edge);
   if (across[1] == kNone) return kNone;
-  for (const uint32_t vertex : s.element_vertices.leaf_vertex[across[0]]) {
-    const auto [a, b] = s.element_vertices.hanging_between[vertex];
+  for (const uint32_t vertex : s.mesh.element_vertices.leaf_vertex[across[0]]) {
+    const auto [a, b] = s.mesh.element_vertices.hanging_between[vertex];
     if ((a == from && b == to) || (a == to && b == from)) return vertex;
   }
   assert(!"two finer neighbours share a corner that hangs on the edge");
@@ -69,8 +70,8 @@ bool is_cut_at_second(const Ring& quad, std::span<const Vec3> position, std::spa
 // fan from the middle of an edge has no triangle without area: that edge's ends are the fan's, too.
 Ring find_outline(const Solution& s, uint32_t row, std::span<const Vec3> position,
                   std::span<const Rgb> values) {
-  const auto& corner = s.element_vertices.leaf_vertex[row];
-  const uint32_t edges = edge_count(s.frames, s.elements.face[row]);
+  const auto& corner = s.mesh.element_vertices.leaf_vertex[row];
+  const uint32_t edges = edge_count(s.surfaces->frames, s.mesh.elements.face[row]);
   Ring ring;
   size_t first = 0;
   for (uint32_t k = 0; k < edges; ++k) {
@@ -102,11 +103,11 @@ std::string_view find_thing_name(std::string_view id, const IdSet& ids) {
 }  // namespace
 
 LitMesh make_lit_mesh(const Scene& scene, const Solution& s, Shading shading) {
-  assert(s.frozen);
+  assert(s.mesh.frozen);
   const FaceTable& faces = scene.faces;
   const bool smooth = shading == Shading::kSmooth;
-  const size_t leaf_count = s.elements.size(), vertex_count = s.element_vertices.size();
-  const std::vector<Rgb> values = vertex_radiosity(s, faces);
+  const size_t leaf_count = s.mesh.elements.size(), vertex_count = s.mesh.element_vertices.size();
+  const std::vector<Rgb> values = vertex_radiosity(s, find_shown_ambient(scene, s));
   std::vector<Vec3> position(vertex_count);
   for_rows(vertex_count, 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
@@ -122,7 +123,7 @@ LitMesh make_lit_mesh(const Scene& scene, const Solution& s, Shading shading) {
   // In the order in which outlines name them, so that a vertex is near its neighbours in memory.
   const auto add_vertex = [&](uint32_t v, uint32_t row) {
     mesh.position.push_back(position[v]);
-    mesh.radiosity.push_back(smooth ? values[v] : s.elements.radiosity[row]);
+    mesh.radiosity.push_back(smooth ? values[v] : s.mesh.elements.radiosity[row]);
     mesh.source.push_back(smooth ? v : row);
     return static_cast<uint32_t>(mesh.position.size() - 1);
   };
@@ -132,7 +133,7 @@ LitMesh make_lit_mesh(const Scene& scene, const Solution& s, Shading shading) {
   for (uint32_t polygon = 0; polygon < scene.polygons.size(); ++polygon) {
     mesh.vertex_first.push_back(static_cast<uint32_t>(mesh.position.size()));
     mesh.element_first.push_back(row);
-    for (; row < leaf_count && faces.polygon[s.elements.face[row]] == polygon; ++row) {
+    for (; row < leaf_count && faces.polygon[s.mesh.elements.face[row]] == polygon; ++row) {
       for (size_t k = 0; k < rings[row].count; ++k) {
         const uint32_t v = rings[row].vertex[k];
         if (!smooth || polygon_of[v] != polygon) row_of[v] = add_vertex(v, row), polygon_of[v] = polygon;

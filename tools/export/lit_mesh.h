@@ -36,6 +36,10 @@ struct LitMesh {
 
 // Smooth: neighbours share vertices, with the values of vertex_radiosity(); flat: every leaf has its own,
 // with its own value.
+// What vertex_radiosity() takes: the guess of what is unshot, where the scene is to show it.
+inline Rgb find_shown_ambient(const Scene& scene, const Solution& solution) {
+  return scene.output.ambient ? find_ambient(solution) : Rgb(0);
+}
 LitMesh make_lit_mesh(const Scene& scene, const Solution& solution, Shading shading);
 
 struct TriangleTable {

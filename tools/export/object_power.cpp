@@ -8,7 +8,7 @@ ObjectPowerTable find_object_power(const Scene& scene, const Solution& solution)
   const double metres_per_length = scene.metres_per_length();
   ObjectPowerTable power{std::vector<double>(count, 0), std::vector<DRgb>(count, DRgb(0)),
                          std::vector<DRgb>(count, DRgb(0)), std::vector<DRgb>(count, DRgb(0))};
-  const PatchTable& elements = solution.elements;
+  const PatchTable& elements = solution.mesh.elements;
   const std::vector<Rgb> irradiance = element_irradiance(solution);
   for (size_t row = 0; row < elements.size(); ++row) {
     const uint32_t face = elements.face[row], object = scene.polygons.object[scene.faces.polygon[face]];

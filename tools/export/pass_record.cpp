@@ -50,14 +50,14 @@ Rgb unpack_shared_exponent(uint32_t word) {
   return {channel(0), channel(1), channel(2)};
 }
 
-void record_pass(PassRecord& record, const Solution& solution, const FaceTable& faces, double ev, bool last) {
-  const auto pass = static_cast<uint32_t>(solution.passes.size());
-  const bool due = record.step == "shot" ? std::has_single_bit(pass) : pass <= kRecordedPassesMax;
+void record_pass(PassRecord& record, const Solution& solution, Rgb ambient, double ev, bool last) {
+  const auto pass = static_cast<uint32_t>(solution.log.passes.size());
+  const bool due = record.solver->chooses_steps ? std::has_single_bit(pass) : pass <= kRecordedPassesMax;
   if (!due && !last) return;
   const auto gain = static_cast<float>(std::exp2(ev));
   record.pass.push_back(pass);
-  record.vertex.push_back(pack_values(vertex_radiosity(solution, faces), gain));
-  record.element.push_back(pack_values(solution.elements.radiosity, gain));
+  record.vertex.push_back(pack_values(vertex_radiosity(solution, ambient), gain));
+  record.element.push_back(pack_values(solution.mesh.elements.radiosity, gain));
 }
 
 }  // namespace patchlight

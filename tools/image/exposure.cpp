@@ -20,10 +20,10 @@ constexpr float kLineKeeps = 0.4f;  // the share of the ground's light that a li
 // 1 for every value that belongs to a lamp.
 std::vector<Rgb> mark_lamps(const Solution& solution, const FaceTable& faces, bool smooth) {
   const auto is_lamp = [&](uint32_t element) {
-    return largest(faces.emission[solution.elements.face[element]]) > 0;
+    return largest(faces.emission[solution.mesh.elements.face[element]]) > 0;
   };
-  const VertexTable& vertices = solution.element_vertices;
-  std::vector<Rgb> marks(smooth ? vertices.size() : solution.elements.size(), Rgb(0));
+  const VertexTable& vertices = solution.mesh.element_vertices;
+  std::vector<Rgb> marks(smooth ? vertices.size() : solution.mesh.elements.size(), Rgb(0));
   for_rows(marks.size(), kGrain, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       // A vertex belongs to one polygon, and a polygon has one material: its first leaf tells.

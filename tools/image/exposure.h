@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/film.h"
+#include "engine/solve.h"
 #include "tools/image/srgb.h"
 #include "tools/image/tone.h"
 

@@ -31,7 +31,7 @@ ColorScale make_level_scale(const ColorScale&, ScaleKind, const PatchTable& elem
 }
 
 std::vector<Rgb> color_levels(const ColorScale& scale, const ColorSource& source) {
-  const std::vector<uint8_t>& levels = source.solution.elements.level;
+  const std::vector<uint8_t>& levels = source.solution.mesh.elements.level;
   return color_values(scale, levels.size(), [&](size_t k) { return double(levels[k]); });
 }
 
@@ -41,7 +41,7 @@ ColorScale make_reason_scale(const ColorScale&, ScaleKind, const PatchTable&) {
 }
 
 std::vector<Rgb> color_reasons(const ColorScale& scale, const ColorSource& source) {
-  const std::vector<SplitReason>& reasons = source.solution.reasons;
+  const std::vector<SplitReason>& reasons = source.solution.mesh.reasons;
   return color_values(scale, reasons.size(), [&](size_t k) { return static_cast<double>(reasons[k]); });
 }
 

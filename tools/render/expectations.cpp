@@ -23,7 +23,7 @@ std::string rgb_text(const DRgb& rgb) { return fmt::format("[{:.5g}, {:.5g}, {:.
 DRgb find_mean_radiosity(const Solution& solution, const Scene& scene, const Expectation& expectation) {
   DRgb sum(0);
   double area = 0;
-  const PatchTable& elements = solution.elements;
+  const PatchTable& elements = solution.mesh.elements;
   for (const uint32_t polygon : expectation.polygons)
     for (uint32_t f = scene.polygons.face_first[polygon]; f < scene.polygons.face_first[polygon + 1]; ++f)
       for (uint32_t row = elements.face_first[f]; row < elements.face_first[f + 1]; ++row) {

@@ -1,7 +1,9 @@
 // A solution under way -> the pixels of its pictures.
 #include "tools/render/pictures.h"
 
+#include "tools/export/lit_mesh.h"
 #include "tools/image/exposure.h"
+#include "tools/image/false_colors.h"
 
 #include <fmt/format.h>
 
@@ -17,62 +19,64 @@ uint64_t count_film_bytes(const FilmTable& film) {
 }
 
 // Films show corners of patches, or one value a patch.
-bool is_smooth(const Run& run) {
-  const FalseColor* color = run.plan.look.false_color;
-  return run.scene.output.shading == Shading::kSmooth && !(color != nullptr && color->of_patches);
+bool is_smooth(const Task& task) {
+  const FalseColor* color = task.plan.look.false_color;
+  return task.scene.output.shading == Shading::kSmooth && !(color != nullptr && color->of_patches);
 }
 
-void make_films(Run& run, const Tracer& tracer) {
-  for (const Camera& camera : run.plan.cameras) {
+void make_films(PictureState& pictures, const Task& task, const Solution& solution) {
+  for (const Camera& camera : task.plan.cameras) {
     const FilmSettings settings{
-        .smooth = is_smooth(run), .mesh_lines = run.plan.mesh, .seed = run.scene.solver.seed};
-    run.films.push_back(make_film(run.solution, run.scene.faces, tracer, make_view(camera), settings));
-    run.report.film_rays += run.films.back().ray_count;
-    run.report.film_bytes += count_film_bytes(run.films.back());
-    if (!run.plan.has_layers()) continue;
-    run.centres.push_back(find_centres(run.solution, run.scene.faces, tracer, make_view(camera)));
-    const size_t pixel_count = run.centres.back().element.size();
-    run.report.film_rays += pixel_count;
-    run.report.film_bytes += pixel_count * (sizeof(uint32_t) + sizeof(float));
+        .smooth = is_smooth(task), .mesh_lines = task.plan.mesh, .seed = task.scene.solver.seed};
+    pictures.films.push_back(make_film(make_scenery(solution), make_view(camera), settings));
+    pictures.ray_count += pictures.films.back().ray_count;
+    pictures.bytes += count_film_bytes(pictures.films.back());
+    if (!task.plan.has_layers()) continue;
+    pictures.centres.push_back(find_centres(*solution.surfaces, solution.mesh.elements, make_view(camera)));
+    const size_t pixel_count = pictures.centres.back().element.size();
+    pictures.ray_count += pixel_count;
+    pictures.bytes += pixel_count * (sizeof(uint32_t) + sizeof(float));
   }
 }
 
 // The mean over each element's corners of what is known at vertices.
-std::vector<Rgb> average_corners(const Solution& solution, const FaceTable& faces,
-                                 std::span<const Rgb> vertex_values) {
-  std::vector<Rgb> values(solution.elements.size());
+std::vector<Rgb> average_corners(const Solution& solution, std::span<const Rgb> vertex_values) {
+  const FaceTable& faces = solution.surfaces->faces;
+  const Mesh& mesh = solution.mesh;
+  std::vector<Rgb> values(mesh.elements.size());
   for (size_t row = 0; row < values.size(); ++row) {
-    const int corner_count = faces.corner_count[solution.elements.face[row]];
+    const int corner_count = faces.corner_count[mesh.elements.face[row]];
     for (int k = 0; k < corner_count; ++k)
-      values[row] += vertex_values[solution.element_vertices.leaf_vertex[row][k]];
+      values[row] += vertex_values[mesh.element_vertices.leaf_vertex[row][k]];
     values[row] /= static_cast<float>(corner_count);
   }
   return values;
 }
 
 // One exposure for all pictures of the run, from the forecast of the refinement rounds and not from a pass.
-void fix_exposure(Run& run, std::span<const Rgb> forecast) {
-  run.report.exposure_ev = run.scene.output.exposure_ev;
-  if (run.report.exposure_ev) return;
+double pick_exposure(const Task& task, const PictureState& pictures, const Solution& solution,
+                     std::span<const Rgb> forecast) {
+  if (task.scene.output.exposure_ev) return *task.scene.output.exposure_ev;
   std::vector<float> brightness;
-  for (const FilmTable& film : run.films)
-    collect_brightness(brightness, film, forecast, run.solution, run.scene.faces, is_smooth(run));
-  run.report.exposure_ev = pick_exposure_ev(brightness);
+  for (const FilmTable& film : pictures.films)
+    collect_brightness(brightness, film, forecast, solution, task.scene.faces, is_smooth(task));
+  return pick_exposure_ev(brightness);
 }
 
 // The same for false colours, and for what storyboards show as added.
-void fix_scales(Run& run, std::span<const Rgb> forecast) {
-  const Look& look = run.plan.look;
+void fix_scales(PictureState& pictures, const Task& task, const Solution& solution,
+                std::span<const Rgb> forecast) {
+  const Look& look = task.plan.look;
   std::vector<float> values;
   float brightest = 0;
-  for (const FilmTable& film : run.films) {
-    collect_brightness(values, film, forecast, run.solution, run.scene.faces, is_smooth(run));
+  for (const FilmTable& film : pictures.films) {
+    collect_brightness(values, film, forecast, solution, task.scene.faces, is_smooth(task));
     for (const Rgb& pixel : expose(film, forecast)) brightest = std::max(brightest, luminance(pixel));
   }
   const ColorScale radiosity = pick_radiosity_scale(values, brightest, look.scale);
-  run.series.added_scale = make_added_scale(radiosity, look.scale);
+  pictures.added_scale = make_added_scale(radiosity, look.scale);
   if (look.false_color != nullptr)
-    run.scale = look.false_color->make_scale(radiosity, look.scale, run.solution.elements);
+    pictures.scale = look.false_color->make_scale(radiosity, look.scale, solution.mesh.elements);
 }
 
 }  // namespace
@@ -86,77 +90,83 @@ View make_view(const Camera& camera) {
           .height = camera.height};
 }
 
-std::vector<Rgb> find_radiosity(const Run& run) {
-  return is_smooth(run) ? vertex_radiosity(run.solution, run.scene.faces) : run.solution.elements.radiosity;
+std::vector<Rgb> find_radiosity(const Task& task, const Solution& solution) {
+  return is_smooth(task) ? vertex_radiosity(solution, find_shown_ambient(task.scene, solution))
+                         : solution.mesh.elements.radiosity;
 }
 
-void start_pictures(Run& run, const Tracer& tracer) {
-  LapWatch watch;
-  if (makes_films(run.plan, run.scene)) make_films(run, tracer);
-  if (run.plan.is_exposed()) {
-    std::vector<Rgb> forecast = vertex_radiosity_forecast(run.solution, run.scene.faces);
-    if (!is_smooth(run)) forecast = average_corners(run.solution, run.scene.faces, forecast);
-    fix_exposure(run, forecast);
-    if (run.plan.look.false_color != nullptr || run.plan.storyboard) fix_scales(run, forecast);
+PictureState start_pictures(const Task& task, const Solution& solution) {
+  PictureState pictures;
+  if (makes_films(task.plan, task.scene)) make_films(pictures, task, solution);
+  if (task.plan.is_exposed()) {
+    std::vector<Rgb> forecast = vertex_radiosity_forecast(solution);
+    if (!is_smooth(task)) forecast = average_corners(solution, forecast);
+    pictures.exposure_ev = pick_exposure(task, pictures, solution, forecast);
+    if (task.plan.look.false_color != nullptr || task.plan.storyboard)
+      fix_scales(pictures, task, solution, forecast);
   }
-  run.report.seconds.render += watch.lap();
-  keep_light(run);
+  keep_light(pictures.light, task, solution);
+  return pictures;
 }
 
-void keep_light(Run& run) {
-  if (!run.plan.has_pictures()) return;
-  LapWatch watch;
-  const size_t pass = run.solution.passes.size();
-  if (run.plan.shows_passes()) {
-    run.light.before = std::move(run.light.now);
-    run.light.now = find_radiosity(run);
+void keep_light(LightHistory& light, const Task& task, const Solution& solution) {
+  const Plan& plan = task.plan;
+  if (!plan.has_pictures()) return;
+  if (plan.shows_passes()) {
+    light.before = std::move(light.now);
+    light.now = find_radiosity(task, solution);
   }
-  if (pass == 0 && run.plan.storyboard) run.series.told = find_radiosity(run);
-  if (pass == 1 && run.plan.goes_by_passes() && (run.plan.look.light != Light::kAll || run.plan.has_layers()))
-    run.light.first = find_radiosity(run);
-  run.report.seconds.render += watch.lap();
+  if (solution.log.passes.size() == 1 && plan.goes_by_passes() &&
+      (plan.look.light != Light::kAll || plan.has_layers()))
+    light.first = find_radiosity(task, solution);
 }
 
-void check_values(Run& run, std::span<const Rgb> radiosity) {
+void check_values(std::span<const Rgb> radiosity, size_t pass_count, const std::string& scene_file,
+                  Talk& talk) {
   const auto count = std::count_if(radiosity.begin(), radiosity.end(), [](const Rgb& value) {
     return !(value.r >= 0 && value.g >= 0 && value.b >= 0 && std::isfinite(value.r + value.g + value.b));
   });
   if (count == 0) return;
-  say_warning(run.talk, "bad-radiosity",
+  say_warning(talk, "bad-radiosity",
               fmt::format("after pass {}, {} of {} values that pictures show are negative or no numbers",
-                          run.solution.passes.size(), count, radiosity.size()),
-              run.scene.file);
+                          pass_count, count, radiosity.size()),
+              scene_file);
 }
 
-std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit) {
-  if (const FalseColor* color = run.plan.look.false_color)
-    return color->find_colors(run.scale, {run.solution, lit, run.light});
-  return expose_values(lit, *run.report.exposure_ev, run.plan.look.tone);
+std::vector<Rgb> show_values(const Task& task, const PictureState& pictures, const Solution& solution,
+                             std::span<const Rgb> lit) {
+  const Look& look = task.plan.look;
+  if (look.false_color != nullptr)
+    return look.false_color->find_colors(pictures.scale, {solution, lit, pictures.light});
+  return expose_values(lit, *pictures.exposure_ev, look.tone);
 }
 
-Picture show_film(const Run& run, const FilmTable& film, std::span<const Rgb> shown) {
+Picture show_film(const Task& task, const PictureState& pictures, size_t camera, std::span<const Rgb> shown) {
+  const FilmTable& film = pictures.films[camera];
   Picture picture{film.width, film.height, expose(film, shown)};
-  const bool colored = run.plan.look.false_color != nullptr;
+  const bool colored = task.plan.look.false_color != nullptr;
   if (colored) fill_nothing(picture.pixels, film, kNothingColor);
-  if (run.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
-  if (colored) draw_legend(picture, run.scale);
+  if (task.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
+  if (colored) draw_legend(picture, pictures.scale);
   return picture;
 }
 
-void add_layers(Picture& picture, const Run& run, size_t camera, std::span<const Rgb> radiosity) {
+void add_layers(Picture& picture, const Task& task, const PictureState& pictures, size_t camera,
+                std::span<const Rgb> radiosity) {
   constexpr const char* kEndings[3] = {".R", ".G", ".B"};
   for (const Light light : {Light::kDirect, Light::kIndirect}) {
-    if (!run.plan.goes_by_passes()) break;
-    const std::vector<Rgb> pixels = expose(run.films[camera], pick_light(run.light, radiosity, light));
+    if (!task.plan.goes_by_passes()) break;
+    const std::vector<Rgb> pixels =
+        expose(pictures.films[camera], pick_light(pictures.light, radiosity, light));
     for (int k = 0; k < 3; ++k) {
       Channel& channel = picture.channels.emplace_back();
       channel.name = kLightNames[static_cast<size_t>(light)] + kEndings[k];
       for (const Rgb& pixel : pixels) channel.values.push_back(pixel[k]);
     }
   }
-  const CentreTable& centres = run.centres[camera];
+  const CentreTable& centres = pictures.centres[camera];
   Channel depth{"Z", centres.depth, {}}, patch{"id", {}, centres.element};
-  for (float& z : depth.values) z *= static_cast<float>(run.scene.units_per_length);
+  for (float& z : depth.values) z *= static_cast<float>(task.scene.units_per_length);
   // 1 is the first row of the table of patches; kNone + 1 is 0.
   for (uint32_t& id : patch.numbers) ++id;
   picture.channels.push_back(std::move(depth));

@@ -1,7 +1,12 @@
 // A solution under way -> the pixels of its pictures.
 #pragma once
 
+#include "tools/base/talk.h"
+#include "tools/image/picture.h"
 #include "tools/render/run.h"
+
+#include <span>
+#include <vector>
 
 namespace patchlight {
 
@@ -12,25 +17,28 @@ View make_view(const Camera& camera);
 
 // Once the mesh is final: the films, and what all pictures of the run have in common, so that a finished one
 // stays right whatever comes later: the exposure and the scale of false colours.
-void start_pictures(Run& run, const Tracer& tracer);
+PictureState start_pictures(const Task& task, const Solution& solution);
 
 // Before pass 1, and after every pass: keeps of its light what later pictures need.
-void keep_light(Run& run);
+void keep_light(LightHistory& light, const Task& task, const Solution& solution);
 
 // Radiosity after the passes so far, at the values of the films, W/m2.
-std::vector<Rgb> find_radiosity(const Run& run);
+std::vector<Rgb> find_radiosity(const Task& task, const Solution& solution);
 // Warns of values that are negative or no numbers: pictures hide the first and show the second in magenta.
-void check_values(Run& run, std::span<const Rgb> radiosity);
+void check_values(std::span<const Rgb> radiosity, size_t pass_count, const std::string& scene_file,
+                  Talk& talk);
 // Values as a display shows them, in the look that is asked for. lit: the part of the light that pictures
 // show.
-std::vector<Rgb> show_values(const Run& run, std::span<const Rgb> lit);
+std::vector<Rgb> show_values(const Task& task, const PictureState& pictures, const Solution& solution,
+                             std::span<const Rgb> lit);
 
 // The picture of a film for displays, with lines and a legend where they are asked for.
-Picture show_film(const Run& run, const FilmTable& film, std::span<const Rgb> shown);
+Picture show_film(const Task& task, const PictureState& pictures, size_t camera, std::span<const Rgb> shown);
 
 // Adds what layered formats hold beside R, G, B: direct and indirect light, Z (depth in the scene's units,
 // infinite where nothing is seen) and id (the row in S-patches.csv from 1, 0 for nothing), both at pixel
 // centres.
-void add_layers(Picture& picture, const Run& run, size_t camera, std::span<const Rgb> radiosity);
+void add_layers(Picture& picture, const Task& task, const PictureState& pictures, size_t camera,
+                std::span<const Rgb> radiosity);
 
 }  // namespace patchlight

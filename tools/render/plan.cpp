@@ -6,6 +6,7 @@
 #include "engine/film.h"
 #include "engine/forecast.h"
 #include "engine/parallel.h"
+#include "engine/sizes.h"
 #include "tools/base/format.h"
 #include "tools/base/memory.h"
 #include "tools/image/animation.h"
@@ -61,15 +62,17 @@ uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
 
 // Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
 void check_look(const Plan& plan) {
-  if (plan.animate_shots && (plan.solver->step != "shot" || plan.snapshots.front() == kSolutionStep))
-    throw UserError("usage", "--animation shots: expected --solver shooting and --shots, such as 1-40");
+  if (plan.animate_shots && (!plan.solver->chooses_steps || plan.snapshots.front() == kSolutionStep))
+    throw UserError("usage", fmt::format("--animation shots: expected --solver {} and --shots, such as 1-40",
+                                         name_solvers(&Solver::chooses_steps)));
   if (plan.goes_by_passes()) return;
   std::string flag;
   if (plan.look.light != Light::kAll) flag = "--light";
   if (plan.shows_passes()) flag = fmt::format("--false-color {}", plan.look.false_color->name);
   if (plan.animate_passes) flag = "--animation passes";
   if (!flag.empty())
-    throw UserError("usage", fmt::format("{}: expected --solver passes, found {}", flag, plan.solver->name));
+    throw UserError("usage", fmt::format("{}: expected --solver {}, found {}", flag,
+                                         name_solvers(&Solver::goes_by_bounces), plan.solver->name));
 }
 
 std::vector<Camera> pick_cameras(const Scene& scene, const Options& options) {
@@ -100,18 +103,16 @@ constexpr uint32_t kShotsMax = 10'000'000;
 
 // The solver, how far it goes, and what is pictured on the way.
 void plan_steps(Plan& plan, Scene& scene, const Options& options) {
-  plan.solver = &solvers()[0];
-  for (const Solver& solver : solvers())
-    if (solver.name == options.solver) plan.solver = &solver;
+  plan.solver = options.solver;
   if (!options.max_patches)
     scene.solver.patch_count_max = std::min(scene.solver.patch_count_max, plan.solver->patch_count_usual);
-  if (plan.solver == &solvers()[0]) {
+  if (plan.solver->goes_by_bounces) {
     plan.step_count_max = scene.solver.pass_count_max;
     plan.snapshots =
         pick_snapshots(scene.output.snapshots, options.snapshots_all, scene.solver.pass_count_max);
     return;
   }
-  scene.solver.ambient = options.ambient;
+  scene.output.ambient = options.ambient;
   plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kSolutionStep} : options.shots;
   plan.step_count_max = options.shots.empty() ? kShotsMax : options.shots.back();
 }
@@ -123,7 +124,7 @@ bool Plan::has_pictures() const {
          has_any(*this, [](const Exporter& row) { return row.encode_picture != nullptr; });
 }
 
-bool Plan::goes_by_passes() const { return solver->step == "pass"; }
+bool Plan::goes_by_passes() const { return solver->goes_by_bounces; }
 
 bool Plan::is_exposed() const {
   return storyboard || animate_passes || animate_shots ||
@@ -232,11 +233,11 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
   const bool of_patches = look.false_color != nullptr && look.false_color->of_patches;
   const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
   const bool lit = color == nullptr || color->of_light;
-  const int digits = plan.solver->step == "shot" ? 6 : 2;
-  const std::string place =
-      step == kSolutionStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, digits);
+  const std::string place = step == kSolutionStep
+                                ? "solution"
+                                : fmt::format("{}-{:0{}}", plan.solver->step, step, plan.solver->digits);
   return fmt::format(
-      "{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place, scene.solver.ambient ? "-ambient" : "",
+      "{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place, scene.output.ambient ? "-ambient" : "",
       lit && look.light != Light::kAll ? "-" + kLightNames[static_cast<size_t>(look.light)] : "",
       color != nullptr ? fmt::format("-{}", color->name) : "",
       display && color == nullptr && look.tone != nullptr ? fmt::format("-{}", look.tone->name) : "",

@@ -1,14 +1,14 @@
-// The verb render. The run is a straight line: load, make the tables, refine, look, then pass by pass; each
-// asked picture is on its way to its file as soon as its pass is done.
+// The main line of the verb render: load, make the tables, refine, look, then step by step; each asked
+// picture is on its way to its file as soon as its step is done.
 #include "tools/render/render.h"
 
-#include "engine/parallel.h"
 #include "tools/base/format.h"
 #include "tools/base/start.h"
 #include "tools/base/stop.h"
-#include "tools/image/exposure.h"
+#include "tools/export/exporters.h"
 #include "tools/render/pictures.h"
 #include "tools/render/series.h"
+#include "tools/render/solve.h"
 
 #include <fmt/format.h>
 
@@ -22,147 +22,161 @@ namespace {
 
 constexpr int kExitNotConverged = 6;
 
-// Sends the pictures of the current state to the files of all `steps`.
-void write_snapshots(Run& run, std::span<const uint32_t> steps) {
-  if (steps.empty() || !run.plan.has_pictures()) return;
-  LapWatch watch;
-  const std::vector<Rgb> radiosity = find_radiosity(run);
-  check_values(run, radiosity);
-  const std::vector<Rgb> lit = pick_light(run.light, radiosity, run.plan.look.light);
-  std::vector<Rgb> shown;
-  if (run.plan.shows_displays()) shown = show_values(run, lit);
-  take_snapshot(run, radiosity, shown);
-  for (size_t k = 0; k < run.films.size(); ++k)
-    for (const Exporter* exporter : run.plan.exporters) {
+// All that a run makes, owned here; each stage gets its part of it. It outlives a run that is stopped.
+struct Made {
+  Solution solution;
+  PictureState pictures;
+  Series series;
+  PassRecord record;  // of passes so far, where a format asks for it
+  RunReport report;
+  OutputFiles files;
+};
+
+// Sends the pictures of a snapshot to the files of all `steps`.
+void send_pictures(Made& made, const Task& task, const Snapshot& snapshot, std::span<const Rgb> lit,
+                   std::span<const uint32_t> steps) {
+  const Plan& plan = task.plan;
+  StageSeconds& seconds = made.report.seconds;
+  for (size_t k = 0; k < made.pictures.films.size(); ++k)
+    for (const Exporter* exporter : plan.exporters) {
       if (exporter->encode_picture == nullptr) continue;
-      const FilmTable& film = run.films[k];
-      const auto picture =
-          std::make_shared<Picture>(exporter->exposed ? show_film(run, film, shown)
-                                                      : Picture{film.width, film.height, expose(film, lit)});
-      if (exporter->layers) add_layers(*picture, run, k, radiosity);
+      std::shared_ptr<Picture> picture;
+      {
+        const StageTimer timer(seconds.render);
+        const FilmTable& film = made.pictures.films[k];
+        picture = std::make_shared<Picture>(exporter->exposed
+                                                ? show_film(task, made.pictures, k, snapshot.shown)
+                                                : Picture{film.width, film.height, expose(film, lit)});
+        if (exporter->layers) add_layers(*picture, task, made.pictures, k, snapshot.radiosity);
+      }
+      const StageTimer timer(seconds.write);
       std::vector<std::string> paths;
       for (const uint32_t step : steps)
-        paths.push_back(run.folder + "/" +
-                        make_picture_name(run.plan, run.scene, run.plan.cameras[k], step, *exporter));
-      run.report.seconds.render += watch.lap();
-      push_job(run.jobs, [picture, paths, encode = exporter->encode_picture] {
+        paths.push_back(made.files.folder + "/" +
+                        make_picture_name(plan, task.scene, plan.cameras[k], step, *exporter));
+      push_job(made.files.jobs, [picture, paths, encode = exporter->encode_picture] {
         const std::string bytes = encode(*picture);
         for (const std::string& path : paths) write_file(path, bytes);
       });
-      run.pictures.insert(run.pictures.end(), paths.begin(), paths.end());
-      run.report.seconds.write += watch.lap();
+      made.files.pictures.insert(made.files.pictures.end(), paths.begin(), paths.end());
     }
 }
 
-void write_run(const Run& run, const Exporter& exporter, const std::string& path) {
+// Pictures the current state, which stands for all `steps`.
+void take_pictures(Made& made, const Task& task, std::span<const uint32_t> steps, bool converged,
+                   Talk& talk) {
+  if (steps.empty() || !task.plan.has_pictures()) return;
+  Snapshot snapshot{.radiosity = {}, .shown = {}, .converged = converged};
+  std::vector<Rgb> lit;
+  {
+    const StageTimer timer(made.report.seconds.render);
+    snapshot.radiosity = find_radiosity(task, made.solution);
+    check_values(snapshot.radiosity, made.solution.log.passes.size(), task.scene.file, talk);
+    lit = pick_light(made.pictures.light, snapshot.radiosity, task.plan.look.light);
+    if (task.plan.shows_displays()) snapshot.shown = show_values(task, made.pictures, made.solution, lit);
+    take_snapshot(made.series, task, made.pictures, made.solution, snapshot);
+  }
+  send_pictures(made, task, snapshot, lit, steps);
+}
+
+void write_run_file(const Made& made, const Task& task, const Exporter& exporter, const std::string& path) {
   NewFile file;
   open_file(file, path);
-  exporter.export_run(file, {run.scene, run.solution, run.record, run.report, run.plan.stem});
+  exporter.export_run(file, {task.scene, made.solution, made.record, made.report, task.plan.stem});
   commit_file(file);
 }
 
-void write_finished(Run& run) {
-  LapWatch watch;
-  for (const Exporter* exporter : run.plan.exporters) {
+void write_run_files(Made& made, const Task& task) {
+  for (const Exporter* exporter : task.plan.exporters) {
     if (exporter->export_run == nullptr) continue;
-    run.tables.push_back(fmt::format("{}/{}", run.folder, name_run_file(run.plan.stem, *exporter)));
-    write_run(run, *exporter, run.tables.back());
+    const std::string path = made.files.folder + "/" + name_run_file(task.plan.stem, *exporter);
+    write_run_file(made, task, *exporter, path);
+    made.files.tables.push_back(path);
   }
-  run.report.seconds.write += watch.lap();
 }
 
-void refine_all(Run& run, const Tracer& tracer) {
-  const auto tell = [&] {
-    take_round(run, tracer);
-    say_progress(run.talk, fmt::format("refining: {} patches", format_count(run.solution.elements.size())));
-  };
-  run.solution = make_solution(run.scene.faces, tracer, run.scene.solver);
-  tell();
-  while (refine(run.solution, run.scene.faces, tracer, run.scene.solver)) tell();
-}
-
-void say_step(Run& run, const PassReport& step) {
-  const Plan& plan = run.plan;
-  if (plan.snapshots.back() != kSolutionStep)
-    say_progress(run.talk, fmt::format("{} {} of {}", plan.solver->step, step.pass, plan.step_count_max));
-  else
-    say_progress(run.talk, fmt::format("{} {}, unshot {:.2g} of {:.2g}", plan.solver->step, step.pass,
-                                       sum_channels(step.unshot_power), run.solution.shot_power));
-}
-
-void advance_all(Run& run, const Tracer& tracer) {
-  const SolverSettings& settings = run.scene.solver;
-  const Solver& solver = *run.plan.solver;
-  std::span<const uint32_t> snapshots = run.plan.snapshots;
-  run.record.step = solver.step;
-  bool last = false;
-  while (!last) {
-    const PassReport& step = solver.advance(run.solution, run.scene.faces, tracer, settings);
-    const bool converged = solver.is_converged(run.solution, settings);
-    last = converged || step.pass == run.plan.step_count_max;
-    if (last) run.report.stopped_reason = converged ? "converged" : name_steps(solver.step);
-    say_step(run, step);
-    keep_light(run);
-    take_pass(run);
-    if (run.plan.records_passes())
-      record_pass(run.record, run.solution, run.scene.faces, *run.report.exposure_ev, last);
+void advance_all(Made& made, const Task& task, Talk& talk) {
+  const Plan& plan = task.plan;
+  std::span<const uint32_t> snapshots = plan.snapshots;
+  made.record.solver = plan.solver;
+  take_steps(made.solution, plan, plan.step_count_max, talk, [&](const StepEnd& end) {
+    if (end.last) made.report.stopped_reason = end.converged ? "converged" : name_steps(plan.solver->step);
+    {
+      const StageTimer timer(made.report.seconds.render);
+      keep_light(made.pictures.light, task, made.solution);
+      take_pass(made.series, task, made.pictures, made.solution, end.converged);
+    }
+    if (plan.records_passes())
+      record_pass(made.record, made.solution, find_shown_ambient(task.scene, made.solution),
+                  *made.pictures.exposure_ev, end.last);
     // A run that ends early writes all that was asked for.
     size_t due = 0;
-    while (due < snapshots.size() && (last || snapshots[due] == step.pass)) ++due;
-    write_snapshots(run, snapshots.first(due));
+    while (due < snapshots.size() && (end.last || snapshots[due] == end.step.pass)) ++due;
+    take_pictures(made, task, snapshots.first(due), end.converged, talk);
     snapshots = snapshots.subspan(due);
-  }
+  });
 }
 
 // Everything that may be cancelled.
-void solve(Run& run, const Tracer& tracer) {
-  refine_all(run, tracer);
-  freeze(run.solution, run.scene.faces, tracer, run.scene.solver);
-  start_pictures(run, tracer);
+void solve(Made& made, const Task& task, Talk& talk) {
+  StageSeconds& seconds = made.report.seconds;
+  solve_mesh(made.solution, task.scene, talk, [&] {
+    const StageTimer timer(seconds.render);
+    take_round(made.series, task, made.solution);
+  });
+  {
+    const StageTimer timer(seconds.render);
+    made.pictures = start_pictures(task, made.solution);
+    made.report.exposure_ev = made.pictures.exposure_ev;
+    start_storyboard(made.series, task, made.solution);
+  }
   try {
-    advance_all(run, tracer);
+    advance_all(made, task, talk);
   } catch (const std::domain_error&) {
     throw UserError("singular-system",
                     "light never dies in this scene, so that the system of equations has no solution: some "
                     "reflectance must be below 1, or some light must leave",
-                    run.scene.file);
+                    task.scene.file);
   }
-  write_series(run);
-  write_finished(run);
-  run.report.power = find_power_ledger(run.solution, run.scene.faces, tracer, run.scene.solver);
-  run.report.health = find_health(run.scene, run.solution, tracer);
-  run.report.objects = find_object_power(run.scene, run.solution);
-  run.report.solution_hash = find_solution_hash(run.solution);
+  {
+    const StageTimer timer(seconds.write);
+    write_series(made.files, made.series, task, made.pictures, made.solution);
+    write_run_files(made, task);
+  }
+  made.report.power = find_power_ledger(made.solution);
+  made.report.health = find_health(task.scene, made.solution);
+  made.report.objects = find_object_power(task.scene, made.solution);
+  made.report.solution_hash = find_solution_hash(made.solution);
 }
 
-void write_report(Run& run, const Exporter& exporter, const std::string& path, LapWatch& whole) {
-  StageSeconds& seconds = run.report.seconds;
-  seconds.trace = run.solution.seconds.trace;
-  seconds.split = run.solution.seconds.split;
-  seconds.solve = run.solution.seconds.solve;
-  seconds.total = whole.lap();
-  write_run(run, exporter, path);
-  run.tables.insert(run.tables.begin(), path);
+void write_report(Made& made, const Task& task, const std::string& path, Stopwatch& whole) {
+  RunReport& report = made.report;
+  report.film_rays = made.pictures.ray_count + made.series.ray_count;
+  report.film_bytes = made.pictures.bytes;
+  report.seconds.trace = made.solution.log.trace_seconds;
+  report.seconds.split = made.solution.log.split_seconds;
+  report.seconds.solve = made.solution.log.solve_seconds;
+  report.seconds.total = whole.read();
+  write_run_file(made, task, find_report(), path);
+  made.files.tables.insert(made.files.tables.begin(), path);
 }
 
 // "12 of 16 passes (converged)", "4,711 shots (converged)", "the whole system at once".
-std::string describe_steps(const Run& run) {
-  const std::string_view step = run.plan.solver->step;
-  const size_t count = run.solution.passes.size();
-  std::string why = run.report.stopped_reason;
+std::string describe_steps(const Plan& plan, const RunReport& report, size_t count) {
+  const Solver& solver = *plan.solver;
+  std::string why = report.stopped_reason;
   if (why == "signal")
-    why = "stopped by " + run.report.stopped_signal;
+    why = "stopped by " + report.stopped_signal;
   else if (why != "converged")
     why = "all that were asked for";
-  if (step == "solution") return count > 0 ? "the whole system at once" : why;
-  if (run.plan.snapshots.back() == kSolutionStep) return fmt::format("{} {}s ({})", count, step, why);
-  return fmt::format("{} of {} {} ({})", count, run.plan.step_count_max, name_steps(step), why);
+  if (solver.takes_one_step) return count > 0 ? "the whole system at once" : why;
+  if (plan.snapshots.back() == kSolutionStep) return fmt::format("{} {}s ({})", count, solver.step, why);
+  return fmt::format("{} of {} {} ({})", count, plan.step_count_max, name_steps(solver.step), why);
 }
 
 // The largest net heat flows, those of sources and those of sinks.
-void say_heat(Run& run) {
+void say_heat(const Scene& scene, const ObjectPowerTable& power, Talk& talk) {
   constexpr size_t kShown = 8;
-  const ObjectPowerTable& power = run.report.objects;
   std::vector<size_t> order(power.size());
   std::iota(order.begin(), order.end(), size_t{0});
   const auto net = [&](size_t object) { return find_net_power(power, object).g; };
@@ -170,89 +184,93 @@ void say_heat(Run& run) {
                    [&](size_t a, size_t b) { return std::abs(net(a)) > std::abs(net(b)); });
   std::string text;
   for (size_t k = 0; k < std::min(order.size(), kShown); ++k)
-    text += fmt::format("{} {} {:+.5g} W", k == 0 ? "" : ",", escape_text(run.scene.object_ids[order[k]]),
+    text += fmt::format("{} {} {:+.5g} W", k == 0 ? "" : ",", escape_text(scene.object_ids[order[k]]),
                         net(order[k]));
   if (!text.empty())
-    say(run.talk, fmt::format("net heat given off:{}{}", text, order.size() > kShown ? ", ..." : ""));
+    say(talk, fmt::format("net heat given off:{}{}", text, order.size() > kShown ? ", ..." : ""));
 }
 
-void say_summary(Run& run) {
-  const RunReport& report = run.report;
-  say(run.talk,
-      fmt::format("{}: {}, {} patches, {} rays{}", run.plan.stem, describe_steps(run),
-                  run.solution.elements.size(), format_count(count_rays(report, run.solution)),
+void say_summary(const Made& made, const Task& task, Talk& talk) {
+  const RunReport& report = made.report;
+  const Solution& solution = made.solution;
+  say(talk,
+      fmt::format("{}: {}, {} patches, {} rays{}", task.plan.stem,
+                  describe_steps(task.plan, report, solution.log.passes.size()),
+                  solution.mesh.elements.size(), format_count(count_rays(report, solution)),
                   report.power ? fmt::format(", closure error {:.2g}", report.power->closure_error) : ""));
-  if (run.scene.is_heat) say_heat(run);
+  if (task.scene.is_heat) say_heat(task.scene, report.objects, talk);
   const StageSeconds& s = report.seconds;
-  say(run.talk, fmt::format("seconds: load {:.2f}, trace {:.2f}, split {:.2f}, solve {:.2f}, render {:.2f}, "
-                            "write {:.2f}, total {:.2f}",
-                            s.load, s.trace, s.split, s.solve, s.render, s.write, s.total));
+  say(talk, fmt::format("seconds: load {:.2f}, trace {:.2f}, split {:.2f}, solve {:.2f}, render {:.2f}, "
+                        "write {:.2f}, total {:.2f}",
+                        s.load, s.trace, s.split, s.solve, s.render, s.write, s.total));
   if (report.exposure_ev)
-    say(run.talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", *report.exposure_ev));
-  say(run.talk, fmt::format("files: {} in {}", run.tables.size() + run.pictures.size(), run.folder));
+    say(talk, fmt::format("exposure: EV {0:.2f}; --exposure {0:.2f} repeats it", *report.exposure_ev));
+  say(talk, fmt::format("files: {} in {}", made.files.tables.size() + made.files.pictures.size(),
+                        made.files.folder));
 }
 
-void warn_not_converged(Run& run) {
-  const std::vector<PassReport>& passes = run.solution.passes;
-  const double until = run.scene.solver.until;
-  if (run.report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
+void warn_not_converged(const Scene& scene, const RunReport& report, std::span<const PassReport> passes,
+                        Talk& talk) {
+  const double until = scene.solver.until;
+  if (report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
   say_warning(
-      run.talk, "not-converged",
+      talk, "not-converged",
       fmt::format("pass {} still added {:.2g} % of what pass 1 added, and until is {:g} %: more passes would "
                   "change the picture",
                   passes.size(), 100 * passes.back().added_largest / passes.front().added_largest,
                   100 * until),
-      run.scene.file);
+      scene.file);
 }
 
 }  // namespace
 
 int render(const Options& options, Talk& talk) {
-  LapWatch whole, watch;
+  Stopwatch whole, loading;
   const RenderOptions& own = get_own<RenderOptions>(options);
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
-  Run run(talk);
-  run.scene = load_scene(options.scene, warnings, options.load);
+  Scene scene = load_scene(options.scene, warnings, options.load);
   say_diagnostics(talk, warnings);
-  run.plan = make_plan(run.scene, options);
-  check_limits(run.scene, run.plan);
-  run.report.solver = *run.plan.solver;
-  run.report.forecast_bytes = forecast_run(run.scene, run.plan).bytes_most;
-  const StopSignals signals;  // From here on there may be files to clean up.
+  const Plan plan = make_plan(scene, options);
+  check_limits(scene, plan);
+  const Task task{scene, plan};
+  Made made;
+  RunReport& report = made.report;
+  report.solver = *plan.solver;
+  report.forecast_bytes = forecast_run(scene, plan).bytes_most;
+  const WorkersScope scope(start_workers(options, talk));
+  report.thread_count = current_workers()->thread_count();
+  const StopSignals signals(*current_workers());  // From here on there may be files to clean up.
   const OutputFolder folder = open_output_folder(options.out);
-  run.folder = folder.path;
-  const Exporter& report = find_report();
-  const std::string report_path = own.report.empty()
-                                      ? fmt::format("{}/{}", run.folder, name_run_file(run.plan.stem, report))
-                                      : own.report;
+  made.files.folder = folder.path;
+  const std::string report_path =
+      own.report.empty() ? folder.path + "/" + name_run_file(plan.stem, find_report()) : own.report;
   check_file_writable(report_path);
+  report.seconds.load = loading.read();
 
-  run.report.thread_count = start_threads(options, talk);
-  const Tracer tracer = make_tracer(run.scene.faces);
-  run.report.seconds.load = watch.lap();
   try {
-    solve(run, tracer);
+    solve(made, task, talk);
   } catch (const Cancelled&) {
-    run.report.stopped_reason = "signal";
-    run.report.stopped_signal = stop_signal() == SIGTERM ? "SIGTERM" : "SIGINT";
+    report.stopped_reason = "signal";
+    report.stopped_signal = stop_signal() == SIGTERM ? "SIGTERM" : "SIGINT";
   }
-  watch.lap();
-  finish_jobs(run.jobs);
-  run.report.seconds.write += watch.lap();
-  write_report(run, report, report_path, whole);
+  {
+    const StageTimer timer(report.seconds.write);
+    finish_jobs(made.files.jobs);
+  }
+  write_report(made, task, report_path, whole);
 
-  warn_not_converged(run);
-  say_diagnostics(talk, describe_leaks(run.scene, run.report.health.leaks));
-  say_summary(run);
+  warn_not_converged(scene, report, made.solution.log.passes, talk);
+  say_diagnostics(talk, describe_leaks(scene, report.health.leaks));
+  say_summary(made, task, talk);
   if (!options.json) {
     std::string paths;
-    for (const std::string& path : run.tables) paths += path + "\n";
-    for (const std::string& path : run.pictures) paths += path + "\n";
+    for (const std::string& path : made.files.tables) paths += path + "\n";
+    for (const std::string& path : made.files.pictures) paths += path + "\n";
     print_result(paths);
   }
-  if (run.report.stopped_reason == "signal") return 128 + stop_signal();
-  return own.require_convergence && run.report.stopped_reason != "converged" ? kExitNotConverged : 0;
+  if (report.stopped_reason == "signal") return 128 + stop_signal();
+  return own.require_convergence && report.stopped_reason != "converged" ? kExitNotConverged : 0;
 }
 
 }  // namespace patchlight

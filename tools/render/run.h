@@ -1,64 +1,68 @@
-// What the files of the verb render share: all that a run gathers.
+// What the stages of the verb render hand to each other. A stage takes what it only reads as const, and what
+// it makes or adds to by reference; nothing else passes between them.
 #pragma once
 
 #include "engine/film.h"
+#include "engine/stopwatch.h"
 #include "tools/base/files.h"
-#include "tools/base/talk.h"
-#include "tools/export/exporters.h"
-#include "tools/export/pass_record.h"
 #include "tools/export/run_report.h"
 #include "tools/image/animation.h"
-#include "tools/image/false_colors.h"
+#include "tools/image/color_scale.h"
 #include "tools/image/light_parts.h"
 #include "tools/image/storyboard.h"
 #include "tools/render/plan.h"
 
-#include <chrono>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace patchlight {
 
-class LapWatch {
- public:
-  // Seconds since it was made or last asked.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
+// What is to be done; fixed before the first ray.
+struct Task {
+  const Scene& scene;
+  const Plan& plan;
+};
 
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+// What pictures need beside the solution; fixed once the mesh is, but for the light.
+struct PictureState {
+  std::vector<FilmTable> films;       // a row a camera
+  std::vector<CentreTable> centres;   // a row a camera, where a format wants them
+  std::optional<double> exposure_ev;  // where something shows light as a display does
+  ColorScale scale;                   // of false colours
+  ColorScale added_scale;             // of storyboards
+  LightHistory light;
+  uint64_t ray_count = 0, bytes = 0;  // of films and centres
 };
 
 // What is gathered for pictures of the whole run; a row a camera.
 struct Series {
   std::vector<Storyboard> storyboards;
   std::vector<Animation> passes, rounds, shots;
-  ColorScale added_scale;  // of the storyboards
-  std::vector<Rgb> told;   // radiosity as the last panel tells it, W/m2; emission before the first
+  std::vector<Rgb> told;  // radiosity as the last panel tells it, W/m2; emission before the first
   uint32_t told_pass = 0;
   std::optional<double> round_ev;
+  uint64_t ray_count = 0;
 };
 
-struct Run {
-  Talk& talk;
-  Scene scene;
-  Plan plan;
+// Files, written or on their way.
+struct OutputFiles {
   std::string folder;
-  Solution solution;
-  std::vector<FilmTable> films;      // a row a camera, once made
-  std::vector<CentreTable> centres;  // a row a camera, where a format wants them
-  PassRecord record;                 // of passes so far, where a format asks for it
-  LightHistory light;
-  ColorScale scale;  // of false colours
-  Series series;
-  RunReport report;
-  std::vector<std::string> tables, pictures;  // paths of files, written or on their way
+  std::vector<std::string> tables, pictures;  // paths
   JobQueue jobs;
-  explicit Run(Talk& talk_of_program) : talk(talk_of_program) {}
+};
+
+// Adds the seconds that it lives to a stage's.
+class StageTimer {
+ public:
+  explicit StageTimer(double& seconds) : seconds_(seconds) {}
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+  ~StageTimer() { seconds_ += watch_.read(); }
+
+ private:
+  double& seconds_;
+  Stopwatch watch_;
 };
 
 }  // namespace patchlight

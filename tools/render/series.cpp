@@ -17,131 +17,140 @@ constexpr double kFrameSeconds = 1, kShotSeconds = 0.3, kLastFrameSeconds = 3;
 constexpr const char* kDot = " \xc2\xb7 ";
 
 // What all passes after `pass` added, W, as the eye weighs the channels.
-double find_watts(const Run& run, size_t pass) {
+double find_watts(const Scene& scene, const Solution& solution, size_t pass) {
   DRgb power(0);
-  for (; pass < run.solution.passes.size(); ++pass) power += run.solution.passes[pass].added_power;
-  const double metres = run.scene.metres_per_length();
+  for (; pass < solution.log.passes.size(); ++pass) power += solution.log.passes[pass].added_power;
+  const double metres = scene.metres_per_length();
   return double{luminance(Rgb(power))} * metres * metres;
 }
 
-std::string label_step(const Run& run) {
-  const std::string_view step = run.plan.solver->step;
-  if (step == "solution") return std::string(step);
-  return fmt::format("{} {}{}", step, run.solution.passes.back().pass,
-                     run.report.stopped_reason == "converged" ? " (converged)" : "");
+std::string label_step(const Plan& plan, const Solution& solution, bool converged) {
+  const Solver& solver = *plan.solver;
+  if (solver.takes_one_step) return std::string(solver.step);
+  return fmt::format("{} {}{}", solver.step, solution.log.passes.back().pass,
+                     converged ? " (converged)" : "");
 }
 
-std::string label_added(const Run& run, uint32_t after) {
-  const std::string_view step = run.plan.solver->step;
-  const uint32_t last = run.solution.passes.back().pass;
-  if (step == "solution") return "added to emission";
-  if (last == after + 1) return fmt::format("added by {} {}", step, last);
-  return fmt::format("added by {} {} to {}", name_steps(step), after + 1, last);
+std::string label_added(const Plan& plan, const Solution& solution, uint32_t after) {
+  const Solver& solver = *plan.solver;
+  const uint32_t last = solution.log.passes.back().pass;
+  if (solver.takes_one_step) return "added to emission";
+  if (last == after + 1) return fmt::format("added by {} {}", solver.step, last);
+  return fmt::format("added by {} {} to {}", name_steps(solver.step), after + 1, last);
 }
 
-Picture shrink_panel(const Run& run, const Picture& picture) {
-  const uint32_t width = find_panel_width(run.plan.snapshots.size(), picture.width);
+Picture shrink_panel(const Plan& plan, const Picture& picture) {
+  const uint32_t width = find_panel_width(plan.snapshots.size(), picture.width);
   const uint64_t height = uint64_t{picture.height} * width / picture.width;
   return shrink_picture(picture, width, static_cast<uint32_t>(std::max<uint64_t>(height, 1)));
 }
 
 // Sends a picture of all that was taken to its file, beside the run.
 template <class Encode>
-void send_file(Run& run, size_t camera, std::string_view ending, Encode encode) {
+void send_file(OutputFiles& files, const Plan& plan, size_t camera, std::string_view ending, Encode encode) {
   const std::string path =
-      fmt::format("{}/{}-{}", run.folder, name_camera(run.plan, run.plan.cameras[camera]), ending);
+      fmt::format("{}/{}-{}", files.folder, name_camera(plan, plan.cameras[camera]), ending);
   // Jobs are copied: what they hold need not be.
   const auto job = std::make_shared<Encode>(std::move(encode));
-  push_job(run.jobs, [path, job] { write_file(path, (*job)()); });
-  run.pictures.push_back(path);
+  push_job(files.jobs, [path, job] { write_file(path, (*job)()); });
+  files.pictures.push_back(path);
 }
 
-// A frame a camera: the light after the last step.
-void add_step_frames(const Run& run, std::vector<Animation>& animations, double seconds,
-                     std::span<const Rgb> shown) {
-  const std::string label = fmt::format("{}{}+{}", label_step(run), kDot,
-                                        format_watts(find_watts(run, run.solution.passes.size() - 1)));
-  animations.resize(run.films.size());
-  for (size_t k = 0; k < run.films.size(); ++k)
-    add_frame(animations[k], show_film(run, run.films[k], shown), label, seconds);
+// A frame a camera.
+void add_step_frames(std::vector<Animation>& animations, const Task& task, const PictureState& pictures,
+                     std::span<const Rgb> shown, const std::string& label, double seconds) {
+  animations.resize(pictures.films.size());
+  for (size_t k = 0; k < pictures.films.size(); ++k)
+    add_frame(animations[k], show_film(task, pictures, k, shown), label, seconds);
+}
+
+// The last step and what it added.
+std::string label_frame(const Task& task, const Solution& solution, bool converged) {
+  return fmt::format("{}{}+{}", label_step(task.plan, solution, converged), kDot,
+                     format_watts(find_watts(task.scene, solution, solution.log.passes.size() - 1)));
 }
 
 }  // namespace
 
-void take_round(Run& run, const Tracer& tracer) {
-  if (!run.plan.animate_rounds) return;
-  LapWatch watch;
-  const Solution& solution = run.solution;
+void take_round(Series& series, const Task& task, const Solution& solution) {
+  if (!task.plan.animate_rounds) return;
+  const std::vector<Rgb>& radiosity = solution.mesh.elements.radiosity;
   std::vector<FilmTable> films;
   std::vector<float> brightness;
-  for (const Camera& camera : run.plan.cameras) {
-    films.push_back(make_film(solution, run.scene.faces, tracer, make_view(camera),
-                              {.smooth = false, .mesh_lines = true, .seed = run.scene.solver.seed}));
-    run.report.film_rays += films.back().ray_count;
-    collect_brightness(brightness, films.back(), solution.elements.radiosity, solution, run.scene.faces,
-                       false);
+  for (const Camera& camera : task.plan.cameras) {
+    films.push_back(make_film(make_scenery(solution), make_view(camera),
+                              {.smooth = false, .mesh_lines = true, .seed = task.scene.solver.seed}));
+    series.ray_count += films.back().ray_count;
+    collect_brightness(brightness, films.back(), radiosity, solution, task.scene.faces, false);
   }
   // The exposure of the run is not known yet; the first round is near to it.
-  if (!run.series.round_ev)
-    run.series.round_ev = run.scene.output.exposure_ev.value_or(pick_exposure_ev(brightness));
-  const std::vector<Rgb> shown =
-      expose_values(solution.elements.radiosity, *run.series.round_ev, run.plan.look.tone);
-  run.series.rounds.resize(films.size());
+  if (!series.round_ev)
+    series.round_ev = task.scene.output.exposure_ev.value_or(pick_exposure_ev(brightness));
+  const std::vector<Rgb> shown = expose_values(radiosity, *series.round_ev, task.plan.look.tone);
+  series.rounds.resize(films.size());
   for (size_t k = 0; k < films.size(); ++k) {
     Picture picture{films[k].width, films[k].height, expose(films[k], shown)};
     draw_mesh_lines(picture.pixels, films[k].line_cover);
-    const RoundReport& round = solution.rounds.back();
-    add_frame(run.series.rounds[k], picture,
+    const RoundReport& round = solution.log.rounds.back();
+    add_frame(series.rounds[k], picture,
               fmt::format("round {}{}{} patches", round.round, kDot, round.patch_count), kFrameSeconds);
   }
-  run.report.seconds.render += watch.lap();
 }
 
-void take_pass(Run& run) {
-  if (!run.plan.animate_passes) return;
-  LapWatch watch;
-  add_step_frames(run, run.series.passes, kFrameSeconds,
-                  show_values(run, pick_light(run.light, find_radiosity(run), run.plan.look.light)));
-  run.report.seconds.render += watch.lap();
+void start_storyboard(Series& series, const Task& task, const Solution& solution) {
+  if (task.plan.storyboard) series.told = find_radiosity(task, solution);
 }
 
-void take_snapshot(Run& run, const std::vector<Rgb>& radiosity, std::span<const Rgb> shown) {
-  if (!run.plan.storyboard && !run.plan.animate_shots) return;
-  Series& series = run.series;
-  if (run.plan.animate_shots) add_step_frames(run, series.shots, kShotSeconds, shown);
-  if (!run.plan.storyboard) return;
+void take_pass(Series& series, const Task& task, const PictureState& pictures, const Solution& solution,
+               bool converged) {
+  if (!task.plan.animate_passes) return;
+  const std::vector<Rgb> lit =
+      pick_light(pictures.light, find_radiosity(task, solution), task.plan.look.light);
+  add_step_frames(series.passes, task, pictures, show_values(task, pictures, solution, lit),
+                  label_frame(task, solution, converged), kFrameSeconds);
+}
+
+void take_snapshot(Series& series, const Task& task, const PictureState& pictures, const Solution& solution,
+                   const Snapshot& snapshot) {
+  const Plan& plan = task.plan;
+  if (plan.animate_shots)
+    add_step_frames(series.shots, task, pictures, snapshot.shown,
+                    label_frame(task, solution, snapshot.converged), kShotSeconds);
+  if (!plan.storyboard) return;
   const std::vector<Rgb> added = color_luminances(
-      series.added_scale, find_added({.first = {}, .before = series.told, .now = radiosity}));
-  series.storyboards.resize(run.films.size());
-  for (size_t k = 0; k < run.films.size(); ++k) {
-    const FilmTable& film = run.films[k];
+      pictures.added_scale, find_added({.first = {}, .before = series.told, .now = snapshot.radiosity}));
+  series.storyboards.resize(pictures.films.size());
+  for (size_t k = 0; k < pictures.films.size(); ++k) {
+    const FilmTable& film = pictures.films[k];
     Picture colored{film.width, film.height, expose(film, added)};
     fill_nothing(colored.pixels, film, kNothingColor);
-    Picture lit{film.width, film.height, expose(film, shown)};
-    if (run.plan.look.false_color != nullptr) fill_nothing(lit.pixels, film, kNothingColor);
+    Picture lit{film.width, film.height, expose(film, snapshot.shown)};
+    if (plan.look.false_color != nullptr) fill_nothing(lit.pixels, film, kNothingColor);
     series.storyboards[k].panels.push_back(
-        {label_step(run), fmt::format("reflects {}", format_watts(find_watts(run, 0))),
-         shrink_panel(run, lit), label_added(run, series.told_pass),
-         fmt::format("+{}", format_watts(find_watts(run, series.told_pass))), shrink_panel(run, colored)});
+        {label_step(plan, solution, snapshot.converged),
+         fmt::format("reflects {}", format_watts(find_watts(task.scene, solution, 0))),
+         shrink_panel(plan, lit), label_added(plan, solution, series.told_pass),
+         fmt::format("+{}", format_watts(find_watts(task.scene, solution, series.told_pass))),
+         shrink_panel(plan, colored)});
   }
-  series.told = radiosity;
-  series.told_pass = run.solution.passes.back().pass;
+  series.told = snapshot.radiosity;
+  series.told_pass = solution.log.passes.back().pass;
 }
 
-void write_series(Run& run) {
-  LapWatch watch;
-  Series& series = run.series;
+void write_series(OutputFiles& files, Series& series, const Task& task, const PictureState& pictures,
+                  const Solution& solution) {
+  const Plan& plan = task.plan;
   for (size_t k = 0; k < series.storyboards.size(); ++k) {
     Storyboard& storyboard = series.storyboards[k];
-    storyboard.title = run.scene.title.empty() ? run.plan.stem : run.scene.title;
-    if (run.plan.cameras_named) storyboard.title += ": " + run.plan.cameras[k].name;
-    storyboard.note = fmt::format("{} patches", run.solution.elements.size());
-    if (run.plan.look.false_color == nullptr)
-      storyboard.note += fmt::format("{}EV {:.2f}", kDot, *run.report.exposure_ev);
+    storyboard.title = task.scene.title.empty() ? plan.stem : task.scene.title;
+    if (plan.cameras_named) storyboard.title += ": " + plan.cameras[k].name;
+    storyboard.note = fmt::format("{} patches", solution.mesh.elements.size());
+    if (plan.look.false_color == nullptr)
+      storyboard.note += fmt::format("{}EV {:.2f}", kDot, *pictures.exposure_ev);
     else
-      storyboard.scales.push_back(run.scale);
-    storyboard.scales.push_back(series.added_scale);
-    send_file(run, k, "storyboard.png", [picture = compose_storyboard(storyboard)] {
+      storyboard.scales.push_back(pictures.scale);
+    storyboard.scales.push_back(pictures.added_scale);
+    send_file(files, plan, k, "storyboard.png", [picture = compose_storyboard(storyboard)] {
       return find_exporter("png").encode_picture(picture);
     });
   }
@@ -150,12 +159,12 @@ void write_series(Run& run) {
                                      {&series.shots, "shots.gif"}})
     for (size_t k = 0; k < animations->size(); ++k) {
       (*animations)[k].seconds.back() = kLastFrameSeconds;
-      send_file(run, k, ending, [animation = std::move((*animations)[k])] {
+      send_file(files, plan, k, ending, [animation = std::move((*animations)[k])] {
         return find_exporter("gif").encode_animation(animation);
       });
     }
-  series = {};
-  run.report.seconds.write += watch.lap();
+  series.storyboards = {};
+  series.passes = series.rounds = series.shots = {};
 }
 
 }  // namespace patchlight

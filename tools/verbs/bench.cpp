@@ -166,7 +166,7 @@ int bench(const Options& options, Talk& talk) {
     say_diagnostics(talk, warnings);
   }
 
-  const StopSignals signals;  // From here on there may be folders to clean up.
+  const StopSignals signals(*current_workers());  // From here on there may be folders to clean up.
   try {
     const Json result = measure_sections(asked, talk);
     if (!asked.json.empty()) write_file(asked.json, format_json(result));

@@ -212,8 +212,8 @@ int factors(const Options& options, Talk& talk) {
   check_memory(scene, options.max_memory.value_or(~uint64_t{0}));
   if (options.json) return 0;
 
-  const StopSignals signals;
-  start_threads(options, talk);
+  const WorkersScope scope(start_workers(options, talk));
+  const StopSignals signals(*current_workers());
   const FactorOptions& own = get_own<FactorOptions>(options);
   const FactorSettings settings{own.error, options.seed.value_or(scene.solver.seed)};
   const size_t n = scene.polygons.size();
@@ -221,7 +221,7 @@ int factors(const Options& options, Talk& talk) {
   const FactorScene factor_scene = make_factor_scene(scene.faces, n);
   FactorTable table = make_factor_table(factor_scene, n);
   try {
-    while (advance(table, factor_scene, scene.faces, tracer, settings))
+    while (extend_factors(table, factor_scene, scene.faces, tracer, settings))
       say_progress(talk,
                    fmt::format("row {} of {}, {} rays", table.row_done, n, format_count(table.ray_count)));
   } catch (const Cancelled&) {

@@ -34,15 +34,17 @@ void add_limit_flags(Usage& usage, Options& options) {
 
 // Flags that only some solvers know are never ignored.
 void check_solver_flags(const Options& options) {
-  const std::string& solver = options.solver;
-  if (solver != "shooting" && !options.shots.empty()) fail_usage("--shots: only --solver shooting has shots");
-  if (solver != "shooting" && options.ambient)
-    fail_usage("--ambient: only --solver shooting estimates what is unshot");
-  const bool has_passes = solver.empty() || solver == solvers()[0].name;
-  if (!has_passes && options.passes) fail_usage(fmt::format("--passes: --solver {} has no passes", solver));
-  if (!has_passes && (options.snapshots_all || !options.snapshots.empty()))
-    fail_usage(fmt::format("--snapshots: --solver {} has no passes{}", solver,
-                           solver == "shooting" ? "; --shots asks for pictures after shots" : ""));
+  const Solver& solver = *options.solver;
+  if (!solver.chooses_steps && !options.shots.empty())
+    fail_usage(fmt::format("--shots: only --solver {} has shots", name_solvers(&Solver::chooses_steps)));
+  if (!solver.leaves_unshot && options.ambient)
+    fail_usage(fmt::format("--ambient: only --solver {} estimates what is unshot",
+                           name_solvers(&Solver::leaves_unshot)));
+  if (solver.goes_by_bounces) return;
+  if (options.passes) fail_usage(fmt::format("--passes: --solver {} has no passes", solver.name));
+  if (options.snapshots_all || !options.snapshots.empty())
+    fail_usage(fmt::format("--snapshots: --solver {} has no passes{}", solver.name,
+                           solver.chooses_steps ? "; --shots asks for pictures after shots" : ""));
 }
 
 }  // namespace
@@ -107,11 +109,14 @@ void add_method_flags(Usage& usage, Options& options) {
       usage, "--solver", names,
       "the way to solve: bounce by bounce, progressive refinement, or the whole linear system at once; "
       "passes unless given",
-      [&](size_t choice) { options.solver = solvers()[choice].name; });
-  add_value(usage, "--shots", "LIST", "shooting: pictures after these shots, such as 1-40,100, and then stop",
-            [&](const std::string& text) { options.shots = parse_steps("--shots", text); });
-  add_switch(usage, "--ambient", options.ambient,
-             "shooting: pictures show an estimate of the light that is unshot, too");
+      [&](size_t choice) { options.solver = &solvers()[choice]; });
+  add_value(
+      usage, "--shots", "LIST",
+      name_solvers(&Solver::chooses_steps) + ": pictures after these shots, such as 1-40,100, and then stop",
+      [&](const std::string& text) { options.shots = parse_steps("--shots", text); });
+  add_switch(
+      usage, "--ambient", options.ambient,
+      name_solvers(&Solver::leaves_unshot) + ": pictures show an estimate of the light that is unshot, too");
   usage.checks.push_back([&] { check_solver_flags(options); });
 }
 

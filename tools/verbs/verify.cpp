@@ -5,7 +5,7 @@
 #include "tools/base/start.h"
 #include "tools/base/stop.h"
 #include "tools/render/expectations.h"
-#include "tools/render/plan.h"
+#include "tools/render/solve.h"
 #include "tools/verbs/flag_groups.h"
 
 #include <fmt/format.h>
@@ -43,26 +43,25 @@ void compare(const Scene& scene, const Solution& solution, size_t k, Results& re
 
 // Solves as far as the expectations need. One that names a pass that the run did not reach, because it had
 // converged, is compared with its end.
-Results solve(const Scene& scene, Talk& talk) {
+Results solve(const Scene& scene, const Plan& plan, Talk& talk) {
   Results results;
   results.found.resize(scene.expectations.size());
   results.met.resize(scene.expectations.size());
-  const Tracer tracer = make_tracer(scene.faces);
-  Solution solution = make_solution(scene.faces, tracer, scene.solver);
-  while (refine(solution, scene.faces, tracer, scene.solver))
-    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.elements.size())));
-  freeze(solution, scene.faces, tracer, scene.solver);
-  uint32_t pass = 0, pass_last = 0;
+  uint32_t pass_last = 0;
   for (const Expectation& expectation : scene.expectations) pass_last = std::max(pass_last, expectation.pass);
-  for (bool last = pass_last == 0;; last = pass >= pass_last || is_converged(solution, scene.solver)) {
+  Solution solution;
+  const auto compare_due = [&](uint32_t pass, bool last) {
     for (size_t k = 0; k < scene.expectations.size(); ++k) {
       const uint32_t due = scene.expectations[k].pass;
       if (due == pass || (last && due > pass)) compare(scene, solution, k, results);
     }
-    if (last) return results;
-    pass = advance(solution, scene.faces, tracer, scene.solver).pass;
-    say_progress(talk, fmt::format("pass {} of {}", pass, pass_last));
-  }
+  };
+  solve_mesh(solution, scene, talk);
+  compare_due(0, pass_last == 0);
+  if (pass_last > 0)
+    take_steps(solution, plan, pass_last, talk,
+               [&](const StepEnd& end) { compare_due(end.step.pass, end.last); });
+  return results;
 }
 
 // Passes that the flags changed: an expectation without a pass follows, one that names a later pass cannot.
@@ -125,10 +124,10 @@ int verify(const Options& options, Talk& talk) {
   const Plan plan = make_plan(scene, options);
   fit_passes(scene);
   check_limits(scene, plan);
-  const StopSignals signals;
-  start_threads(options, talk);
+  const WorkersScope scope(start_workers(options, talk));
+  const StopSignals signals(*current_workers());
   try {
-    const Results results = solve(scene, talk);
+    const Results results = solve(scene, plan, talk);
     report(scene, results, talk);
     return std::all_of(results.met.begin(), results.met.end(), [](uint8_t met) { return met; }) ? 0 : 1;
   } catch (const Cancelled&) {

@@ -13,7 +13,7 @@
 #include "tools/export/exporters.h"
 #include "tools/image/exposure.h"
 #include "tools/image/lettering.h"
-#include "tools/render/plan.h"
+#include "tools/render/solve.h"
 #include "tools/verbs/flag_groups.h"
 
 #include <fmt/format.h>
@@ -106,26 +106,19 @@ void draw_ring(Picture& picture, const View& view) {
 double pick_exposure(const Scene& scene, const Solution& solution, const FilmTable& film) {
   if (scene.output.exposure_ev) return *scene.output.exposure_ev;
   std::vector<float> brightness;
-  collect_brightness(brightness, film, vertex_radiosity_forecast(solution, scene.faces), solution,
-                     scene.faces, true);
+  collect_brightness(brightness, film, vertex_radiosity_forecast(solution), solution, scene.faces, true);
   return pick_exposure_ev(brightness);
 }
 
 // Solves as far as the picture needs; the picture is that of the last pass where the run converges before.
-Picture solve(const Scene& scene, uint32_t pass_last, const Tone* tone, const View& view, double& ev,
+Picture solve(const Scene& scene, const Plan& plan, const ViewOptions& own, const View& view, double& ev,
               Talk& talk) {
-  const Tracer tracer = make_tracer(scene.faces);
-  Solution solution = make_solution(scene.faces, tracer, scene.solver);
-  while (refine(solution, scene.faces, tracer, scene.solver))
-    say_progress(talk, fmt::format("refining: {} patches", format_count(solution.elements.size())));
-  freeze(solution, scene.faces, tracer, scene.solver);
-  const FilmTable film = make_film(solution, scene.faces, tracer, view, {.seed = scene.solver.seed});
+  Solution solution;
+  solve_mesh(solution, scene, talk);
+  const FilmTable film = make_film(make_scenery(solution), view, {.seed = scene.solver.seed});
   ev = pick_exposure(scene, solution, film);
-  while (solution.passes.size() < pass_last && !is_converged(solution, scene.solver)) {
-    const uint32_t pass = advance(solution, scene.faces, tracer, scene.solver).pass;
-    say_progress(talk, fmt::format("pass {} of {}", pass, pass_last));
-  }
-  const std::vector<Rgb> shown = expose_values(vertex_radiosity(solution, scene.faces), ev, tone);
+  if (own.pass > 0) take_steps(solution, plan, own.pass, talk);
+  const std::vector<Rgb> shown = expose_values(vertex_radiosity(solution), ev, plan.look.tone);
   return {film.width, film.height, expose(film, shown)};
 }
 
@@ -202,12 +195,12 @@ int view(const Options& asked, Talk& talk) {
                     own.pass, pass_count));
   const View from = make_patch_view(find_patch_place(scene, own), own.size);
   check_limits(scene, plan);
-  const StopSignals signals;
+  const WorkersScope scope(start_workers(options, talk));
+  const StopSignals signals(*current_workers());
   const OutputFolder folder = open_output_folder(options.out);
-  start_threads(options, talk);
   try {
     double ev = 0;
-    Picture picture = solve(scene, own.pass, options.look.tone, from, ev, talk);
+    Picture picture = solve(scene, plan, own, from, ev, talk);
     draw_ring(picture, from);
     if (own.label)
       draw_label(picture,

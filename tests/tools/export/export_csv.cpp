@@ -27,12 +27,12 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   faces.patch_size = {0};
   faces.level_min = {0};
   Solution solution;
-  solution.frames = make_face_frames(faces);
-  solution.elements.face = {0};
-  solution.elements.cell = {0};
-  solution.elements.level = {1};
-  solution.elements.area = {0.25f};
-  solution.elements.radiosity.emplace_back(1.5f, 2.5f, 1e-9f);
+  solution.surfaces = make_surfaces(faces);
+  solution.mesh.elements.face = {0};
+  solution.mesh.elements.cell = {0};
+  solution.mesh.elements.level = {1};
+  solution.mesh.elements.area = {0.25f};
+  solution.mesh.elements.radiosity.emplace_back(1.5f, 2.5f, 1e-9f);
 
   const Folder folder;
   NewFile file;

@@ -1,7 +1,7 @@
 // The lit mesh as binary glTF, read back. Whether the file keeps to the format is for the format's own
 // validator: tests/page/check.mjs.
-#include "lit_scene.h"
 #include "tests/folder.h"
+#include "tests/tools/export/lit_scene.h"
 #include "tools/base/json.h"
 #include "tools/export/exporters.h"
 #include "tools/export/lit_mesh.h"

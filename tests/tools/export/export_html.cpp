@@ -1,7 +1,7 @@
 // The page's data, read back as tools/page/README.md describes it. What the page does with it is seen in a
 // browser: tests/page/check.mjs.
-#include "lit_scene.h"
 #include "tests/folder.h"
+#include "tests/tools/export/lit_scene.h"
 #include "tools/base/json.h"
 #include "tools/export/exporters.h"
 #include "tools/export/lit_mesh.h"
@@ -132,7 +132,7 @@ TEST_CASE("a page holds the mesh, the numbers of the patches and the light after
   CHECK(data.header["shading"] == "smooth");
 
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kSmooth);
-  const PatchTable& elements = lit.solution.elements;
+  const PatchTable& elements = lit.solution.mesh.elements;
   check_floats(data, "position", mesh.position);
   CHECK(read_words(data, "outline") == mesh.outline);
   CHECK(read_words(data, "polygon-patch") == mesh.element_first);

@@ -1,6 +1,6 @@
 // The lit mesh as OBJ, read back.
-#include "lit_scene.h"
 #include "tests/folder.h"
+#include "tests/tools/export/lit_scene.h"
 #include "tools/export/exporters.h"
 #include "tools/export/lit_mesh.h"
 #include "tools/image/exposure.h"
@@ -64,7 +64,7 @@ TEST_CASE("an OBJ file holds an object a thing, a group a polygon, and six numbe
     } else if (word == "f") {
       REQUIRE(triangle < triangles.size());
       const uint32_t polygon =
-          lit.scene.faces.polygon[lit.solution.elements.face[triangles.element[triangle]]];
+          lit.scene.faces.polygon[lit.solution.mesh.elements.face[triangles.element[triangle]]];
       for (const uint32_t corner : triangles.corner[triangle]) {
         words >> word;
         CHECK(word == std::to_string(corner + 1) + "//" + std::to_string(polygon + 1));

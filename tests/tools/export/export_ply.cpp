@@ -1,6 +1,6 @@
 // The lit mesh as PLY, read back.
-#include "lit_scene.h"
 #include "tests/folder.h"
+#include "tests/tools/export/lit_scene.h"
 #include "tools/export/exporters.h"
 #include "tools/export/lit_mesh.h"
 #include "tools/image/exposure.h"

@@ -18,14 +18,14 @@ struct Example {
     scene.metres_per_unit = 0.5;
     scene.polygons.id = {"floor", "roof"};
     scene.faces.polygon = {0, 1};
-    solution.patches.face = {0, 0, 1};
-    solution.patches.area = {3, 1, 1};
-    solution.receivers.receiver_of = {0, 1, 2};
-    solution.hits.ray_count = 2;
+    solution.mesh.patches.face = {0, 0, 1};
+    solution.mesh.patches.area = {3, 1, 1};
+    solution.transport.receivers.receiver_of = {0, 1, 2};
+    solution.transport.hits.ray_count = 2;
     // Two on lit sides or backs; one of two; the one that is not buried.
-    solution.hits.nothing = {0, 1, 0};
-    solution.hits.buried = {0, 0, 1};
-    solution.passes.push_back(
+    solution.transport.hits.nothing = {0, 1, 0};
+    solution.transport.hits.buried = {0, 0, 1};
+    solution.log.passes.push_back(
         {.pass = 1, .ray_count = 5, .added_power = DRgb(8), .added_largest = 1, .seconds = 0});
   }
 };

@@ -19,8 +19,8 @@ Health find_health_of(const std::string& text, Scene& scene) {
   std::vector<Diagnostic> warnings;
   scene = load_scene_text(text, "room.yaml", warnings);
   scene.solver.patch_count_max = 4000;
-  const Run run = run_scene(scene.faces, scene.solver, 1);
-  return find_health(scene, run.solution, run.tracer);
+  const Solution run = solve_scene(scene.faces, scene.solver, 1);
+  return find_health(scene, run);
 }
 
 }  // namespace

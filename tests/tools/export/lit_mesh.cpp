@@ -1,7 +1,8 @@
 // Leaves to a mesh without cracks.
 #include "tools/export/lit_mesh.h"
 
-#include "lit_scene.h"
+#include "engine/face_links.h"
+#include "tests/tools/export/lit_scene.h"
 
 #include <doctest/doctest.h>
 
@@ -73,28 +74,28 @@ TEST_CASE("the triangles of the lit mesh have the area of the scene, and each ha
     const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, shading);
     const TriangleTable triangles = make_triangles(mesh);
     CHECK(triangles.size() == mesh.triangle_count());
-    std::vector<double> area(lit.solution.elements.size(), 0);
+    std::vector<double> area(lit.solution.mesh.elements.size(), 0);
     for (size_t t = 0; t < triangles.size(); ++t) {
       const double part = triangle_area(mesh, triangles.corner[t]);
-      CHECK(part > 0.1 * lit.solution.elements.area[triangles.element[t]]);
+      CHECK(part > 0.1 * lit.solution.mesh.elements.area[triangles.element[t]]);
       area[triangles.element[t]] += part;
     }
     // Leaves have edges of 1e-2 and more, and corners are rounded to 6e-8.
     for (size_t row = 0; row < area.size(); ++row)
-      CHECK(area[row] == doctest::Approx(lit.solution.elements.area[row]).epsilon(1e-4));
+      CHECK(area[row] == doctest::Approx(lit.solution.mesh.elements.area[row]).epsilon(1e-4));
   }
 }
 
 TEST_CASE("the lit mesh of a polygon has no cracks: two triangles an inner edge, also where corners hang") {
   const LitScene& lit = lit_scene();
-  REQUIRE(lit.solution.element_vertices.hanging_order.size() > 50);
+  REQUIRE(lit.solution.mesh.element_vertices.hanging_order.size() > 50);
   for (const Shading shading : {Shading::kSmooth, Shading::kFlat})
     check_watertight(lit, make_lit_mesh(lit.scene, lit.solution, shading));
 }
 
 TEST_CASE("every corner that hangs is in the outline of the leaf on whose edge it lies") {
   const LitScene& lit = lit_scene();
-  const VertexTable& vertices = lit.solution.element_vertices;
+  const VertexTable& vertices = lit.solution.mesh.element_vertices;
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kSmooth);
   std::vector<uint32_t> outline_count(vertices.size(), 0);
   for (const uint32_t vertex : mesh.outline) ++outline_count[mesh.source[vertex]];
@@ -108,7 +109,7 @@ TEST_CASE("every corner that hangs is in the outline of the leaf on whose edge i
 TEST_CASE("smooth: one vertex a corner and polygon, with the value and the place of vertex_radiosity's") {
   const LitScene& lit = lit_scene();
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kSmooth);
-  const std::vector<Rgb> values = vertex_radiosity(lit.solution, lit.scene.faces);
+  const std::vector<Rgb> values = vertex_radiosity(lit.solution);
   std::vector<std::vector<uint32_t>> rows(values.size());
   for (uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     CHECK(mesh.radiosity[v] == values[mesh.source[v]]);
@@ -129,10 +130,10 @@ TEST_CASE("flat: a leaf has vertices of its own, with its own radiosity") {
   const LitScene& lit = lit_scene();
   const LitMesh mesh = make_lit_mesh(lit.scene, lit.solution, Shading::kFlat);
   CHECK(mesh.vertex_count() == mesh.outline.size());
-  for (size_t row = 0; row < lit.solution.elements.size(); ++row)
+  for (size_t row = 0; row < lit.solution.mesh.elements.size(); ++row)
     for (uint32_t k = mesh.outline_first[row]; k < mesh.outline_first[row + 1]; ++k) {
       CHECK(mesh.source[mesh.outline[k]] == row);
-      CHECK(mesh.radiosity[mesh.outline[k]] == lit.solution.elements.radiosity[row]);
+      CHECK(mesh.radiosity[mesh.outline[k]] == lit.solution.mesh.elements.radiosity[row]);
     }
 }
 
@@ -142,10 +143,10 @@ TEST_CASE("a polygon has a range of vertices and one of leaves, and its triangle
   const TriangleTable triangles = make_triangles(mesh);
   const std::vector<Vec3> normals = find_polygon_normals(lit.scene);
   CHECK(mesh.vertex_first.back() == mesh.vertex_count());
-  CHECK(mesh.element_first.back() == lit.solution.elements.size());
+  CHECK(mesh.element_first.back() == lit.solution.mesh.elements.size());
   for (uint32_t polygon = 0; polygon < lit.scene.polygons.size(); ++polygon) {
     for (uint32_t row = mesh.element_first[polygon]; row < mesh.element_first[polygon + 1]; ++row)
-      CHECK(lit.scene.faces.polygon[lit.solution.elements.face[row]] == polygon);
+      CHECK(lit.scene.faces.polygon[lit.solution.mesh.elements.face[row]] == polygon);
     for (uint32_t t = triangles.polygon_first[polygon]; t < triangles.polygon_first[polygon + 1]; ++t) {
       const auto [a, b, c] = triangles.corner[t];
       for (const uint32_t v : triangles.corner[t]) {

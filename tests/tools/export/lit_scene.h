@@ -40,15 +40,14 @@ inline void solve_scene(LitScene& lit, uint32_t pass_count) {
   Camera camera;
   camera.eye = DVec3(0.2, 0.1, 0.3), camera.target = DVec3(0.2, 0.1, 0), camera.up = DVec3(0, 1, 0);
   scene.cameras = {camera};
-  const Tracer tracer = make_tracer(scene.faces);
-  lit.solution = make_solution(scene.faces, tracer, scene.solver);
-  while (refine(lit.solution, scene.faces, tracer, scene.solver)) {
+  lit.solution = make_solution(make_surfaces(scene.faces), scene.solver);
+  while (refine(lit.solution)) {
   }
-  freeze(lit.solution, scene.faces, tracer, scene.solver);
-  while (lit.solution.passes.size() < pass_count) {
-    advance(lit.solution, scene.faces, tracer, scene.solver);
-    record_pass(lit.record, lit.solution, scene.faces, *lit.report.exposure_ev,
-                lit.solution.passes.size() == pass_count);
+  freeze(lit.solution);
+  while (lit.solution.log.passes.size() < pass_count) {
+    advance(lit.solution);
+    record_pass(lit.record, lit.solution, Rgb(0), *lit.report.exposure_ev,
+                lit.solution.log.passes.size() == pass_count);
   }
 }
 

@@ -1,7 +1,7 @@
 // Radiosity to shared-exponent words, pass by pass.
 #include "tools/export/pass_record.h"
 
-#include "lit_scene.h"
+#include "tests/tools/export/lit_scene.h"
 
 #include <doctest/doctest.h>
 
@@ -45,7 +45,8 @@ TEST_CASE("of shots a record keeps the powers of two and the last") {
   name_polygons(lit.scene, {"a.0", "a.1", "a.2", "a.3", "a.4", "a.5"});
   lit.scene.solver.rays = 16;
   lit.scene.solver.patch_count_max = 100;
-  lit.record.step = "shot";
+  for (const Solver& solver : solvers())
+    if (solver.chooses_steps) lit.record.solver = &solver;
   solve_scene(lit, 21);
   CHECK(lit.record.pass == std::vector<uint32_t>{1, 2, 4, 8, 16, 21});
 }
@@ -60,8 +61,8 @@ TEST_CASE("a record keeps the first sixteen passes and the last, times two to th
   CHECK(lit.record.pass == std::vector<uint32_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 19});
   REQUIRE(lit.record.vertex.size() == 17);
   REQUIRE(lit.record.element.size() == 17);
-  CHECK(lit.record.vertex[0].size() == lit.solution.element_vertices.size());
-  CHECK(lit.record.element[0].size() == lit.solution.elements.size());
+  CHECK(lit.record.vertex[0].size() == lit.solution.mesh.element_vertices.size());
+  CHECK(lit.record.element[0].size() == lit.solution.mesh.elements.size());
   // E = 1 and rho = 0.5 in a closed box: 1.5 after pass 1, 1.75 after pass 2, 2 at last; EV -1 halves them.
   for (const auto& [at, value] : {std::pair(0, 0.75f), {1, 0.875f}, {16, 1.0f}}) {
     CHECK(unpack_shared_exponent(lit.record.vertex[at][5]).g == doctest::Approx(value).epsilon(0.003));

@@ -100,10 +100,10 @@ TEST_CASE("ticks are round numbers within the scale, written as people do") {
 
 TEST_CASE("levels and reasons have a colour each, and what is no number is magenta") {
   Solution solution;
-  PatchTable& elements = solution.elements;
+  PatchTable& elements = solution.mesh.elements;
   elements.face = {0, 0, 0};
   elements.level = {0, 2, 3};
-  solution.reasons = {SplitReason::kStart, SplitReason::kBalance};
+  solution.mesh.reasons = {SplitReason::kStart, SplitReason::kBalance};
   const FalseColor& level = *find_false_color("level");
   const ColorScale levels = level.make_scale({}, ScaleKind::kAuto, elements);
   CHECK(levels.classes == std::vector<std::string>{"0", "1", "2", "3"});

@@ -43,7 +43,7 @@ TEST_CASE("pixels that show a lamp or nothing do not count for the exposure") {
   FaceTable faces;
   faces.emission = {Rgb(0), Rgb(10)};
   Solution solution;
-  solution.elements.face = {0, 1};
+  solution.mesh.elements.face = {0, 1};
   FilmTable film;
   film.width = 4;
   film.height = 1;

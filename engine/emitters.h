@@ -10,7 +10,7 @@ namespace patchlight {
 inline constexpr float kGauss[2] = {0.21132487f, 0.78867513f};  // Gauss's points of [0, 1] for two
 
 // A planar piece of a face that sends light: the whole face, or a cell of it.
-struct Lamp {
+struct Emitter {
   uint32_t face;
   CellFrame cell;  // its place on the face
   uint64_t key;    // of the samples on it
@@ -23,15 +23,14 @@ struct Lamp {
   std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
 };
 
-Lamp make_lamp(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face, uint32_t cell = 0,
-               uint32_t level = 0);
+Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& cell);
 // All faces that emit, in their order.
-std::vector<Lamp> make_lamps(const FaceTable& faces, const FaceFrameTable& frames);
+std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames);
 
-// The unoccluded form factor from a point to the lamp.
-float find_factor(Vec3 point, Vec3 normal, const Lamp& lamp);
+// The unoccluded form factor from a point to the emitter.
+float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter);
 
-// Can any point of the patch be lit by the lamp at all, blockers aside?
-bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Lamp& lamp);
+// Can any point of the patch be lit by the emitter at all, blockers aside?
+bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Emitter& emitter);
 
 }  // namespace patchlight

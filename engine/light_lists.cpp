@@ -1,11 +1,11 @@
 // Lamps to the lists that polygons aim at.
-#include "aims.h"
+#include "light_lists.h"
 
-#include "lamps.h"
+#include "emitters.h"
 #include "parallel.h"
+#include "union_find.h"
 
 #include <cassert>
-#include <numeric>
 #include <span>
 
 namespace patchlight {
@@ -17,7 +17,7 @@ constexpr double kLampSkyMax = 0.8;
 // So many lamps, the most powerful ones, may be aimed at: ranking them costs polygons times lamps.
 constexpr size_t kLampsRankedMax = 512;
 // Patches of a polygon from which its lamps are ranked.
-constexpr uint32_t kAimProbes = 64;
+constexpr uint32_t kListProbes = 64;
 
 // A lamp that could light a polygon, and how strongly.
 struct Candidate {
@@ -26,15 +26,16 @@ struct Candidate {
 };
 
 // Lamps that reach any of the patches `rows` (ascending); sky: the mean share of their sky that they fill,
-// both from up to kAimProbes patches.
-void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<const Lamp> lamps,
-                     std::span<const uint32_t> rows, const PatchTable& patches, const FaceTable& faces,
-                     const FaceFrameTable& frames) {
-  const size_t step = std::max(rows.size() / kAimProbes, size_t{1});
+// both from up to kListProbes patches.
+void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<const Emitter> lamps,
+                     std::span<const uint32_t> rows, const PatchTable& patches, const Surfaces& surfaces) {
+  const FaceTable& faces = surfaces.faces;
+  const FaceFrameTable& frames = surfaces.frames;
+  const size_t step = std::max(rows.size() / kListProbes, size_t{1});
   candidates.clear();
   double sky_sum = 0, area_sum = 0;
   for (size_t k = 0; k < rows.size(); k += step) area_sum += patches.area[rows[k]] * patches.exposed[rows[k]];
-  for (const Lamp& lamp : lamps) {
+  for (const Emitter& lamp : lamps) {
     const auto is_reached = [&](size_t k) {
       const uint32_t face = patches.face[rows[k]];
       if (k > 0 && face == patches.face[rows[k - 1]]) return false;  // asked before
@@ -47,7 +48,7 @@ void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<
     for (size_t k = 0; k < rows.size(); k += step) {
       const uint32_t row = rows[k], face = patches.face[row];
       const Vec3 centre = cell_centre(frames, face, patches.cell[row], patches.level[row]);
-      seen += patches.area[row] * patches.exposed[row] * find_factor(centre, faces.normal[face], lamp);
+      seen += patches.area[row] * patches.exposed[row] * find_point_factor(centre, faces.normal[face], lamp);
     }
     sky_sum += seen;
     candidates.push_back({seen * luminance(faces.emission[lamp.face]), lamp.face});
@@ -60,50 +61,47 @@ void find_candidates(std::vector<Candidate>& candidates, double& sky, std::span<
 uint32_t share_lists(std::vector<uint32_t>& list_of, const FaceTable& faces, const PatchTable& patches,
                      const ReceiverTable& receivers) {
   list_of.resize(faces.size() ? faces.polygon.back() + 1 : 0);
-  std::iota(list_of.begin(), list_of.end(), 0u);
-  const auto find_root = [&](uint32_t polygon) {
-    while (list_of[polygon] != polygon) polygon = list_of[polygon] = list_of[list_of[polygon]];
-    return polygon;
-  };
+  UnionFind polygons(list_of.size());
   for (size_t r = 0; r < receivers.size(); ++r)
     for (uint32_t k = receivers.first[r] + 1; k < receivers.first[r + 1]; ++k) {
-      const uint32_t a = find_root(faces.polygon[patches.face[receivers.patch[k - 1]]]);
-      const uint32_t b = find_root(faces.polygon[patches.face[receivers.patch[k]]]);
-      list_of[std::max(a, b)] = std::min(a, b);
+      polygons.join(faces.polygon[patches.face[receivers.patch[k - 1]]],
+                    faces.polygon[patches.face[receivers.patch[k]]]);
     }
-  // A root is the first polygon of its list.
   uint32_t count = 0;
-  for (uint32_t polygon = 0; polygon < list_of.size(); ++polygon)
-    list_of[polygon] = list_of[polygon] == polygon ? count++ : list_of[list_of[polygon]];
+  for (uint32_t polygon = 0; polygon < list_of.size(); ++polygon) {
+    const uint32_t first = polygons.find(polygon);
+    list_of[polygon] = first == polygon ? count++ : list_of[first];
+  }
   return count;
 }
 
 }  // namespace
 
-AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const PatchTable& patches,
-                   const ReceiverTable& receivers) {
+LightListTable make_light_lists(const Surfaces& surfaces, const PatchTable& patches,
+                                const ReceiverTable& receivers) {
+  const FaceTable& faces = surfaces.faces;
   assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
-  std::vector<Lamp> lamps = make_lamps(faces, frames);
+  std::vector<Emitter> lamps = make_emitters(faces, surfaces.frames);
   if (lamps.size() > kLampsRankedMax) {
-    const auto power = [&](const Lamp& lamp) {
+    const auto power = [&](const Emitter& lamp) {
       return double{lamp.area} * luminance(faces.emission[lamp.face]);
     };
     std::nth_element(lamps.begin(), lamps.begin() + kLampsRankedMax, lamps.end(),
-                     [&](const Lamp& a, const Lamp& b) {
+                     [&](const Emitter& a, const Emitter& b) {
                        return power(a) != power(b) ? power(a) > power(b) : a.face < b.face;
                      });
     lamps.resize(kLampsRankedMax);
   }
-  AimTable aims;
-  const uint32_t list_count = share_lists(aims.list_of, faces, patches, receivers);
+  LightListTable lists;
+  const uint32_t list_count = share_lists(lists.list_of, faces, patches, receivers);
   std::vector<std::vector<uint32_t>> rows(list_count), chosen(list_count);
   for (uint32_t row = 0; row < patches.size(); ++row)
-    rows[aims.list_of[faces.polygon[patches.face[row]]]].push_back(row);
+    rows[lists.list_of[faces.polygon[patches.face[row]]]].push_back(row);
   for_rows(list_count, 4, [&](size_t begin, size_t end) {
     std::vector<Candidate> candidates;
     for (size_t list = begin; list < end; ++list) {
       double sky = 0;
-      find_candidates(candidates, sky, lamps, rows[list], patches, faces, frames);
+      find_candidates(candidates, sky, lamps, rows[list], patches, surfaces);
       if (sky > kLampSkyMax) continue;
       if (candidates.size() > kAimedLampsMax) {
         std::nth_element(candidates.begin(), candidates.begin() + kAimedLampsMax, candidates.end(),
@@ -116,12 +114,12 @@ AimTable make_aims(const FaceTable& faces, const FaceFrameTable& frames, const P
       std::sort(chosen[list].begin(), chosen[list].end());
     }
   });
-  aims.list_first.push_back(0);
+  lists.list_first.push_back(0);
   for (const auto& list : chosen) {
-    aims.lamp.insert(aims.lamp.end(), list.begin(), list.end());
-    aims.list_first.push_back(static_cast<uint32_t>(aims.lamp.size()));
+    lists.lamp.insert(lists.lamp.end(), list.begin(), list.end());
+    lists.list_first.push_back(static_cast<uint32_t>(lists.lamp.size()));
   }
-  return aims;
+  return lists;
 }
 
 }  // namespace patchlight
