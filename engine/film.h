@@ -38,8 +38,9 @@ struct FilmTable {
 };
 
 // Box mean of at least 16 samples a pixel; 64 or 256 where very bright and dark elements share one, such as
-// the borders of lamps and sun spots. Looks through back sides, except in a hemisphere. Smooth films need the
-// final mesh; others may be made after any round, for the values that elements have then.
+// the borders of lamps and sun spots. Looks through back sides, except where the projection hides them.
+// Smooth films need the final mesh; others may be made after any round, for the values that elements have
+// then.
 FilmTable make_film(const Scenery& scenery, const View& view, const FilmSettings& settings);
 
 // What a ray through the centre of each pixel meets; looks through back sides. A row a pixel.

@@ -39,8 +39,9 @@ void aim_flat(RayPacket& r, const Vec2 (&at)[kPacketSize], const Lens& lens) {
 uint32_t aim(HitPacket& packet, const Vec2 (&at)[kPacketSize], const Lens& lens) {
   uint32_t active = kAll;
   RayPacket& r = packet.ray;
-  if (!lens.hemisphere) aim_flat(r, at, lens);
-  for (uint32_t k = 0; lens.hemisphere && k < kPacketSize; ++k) {
+  const bool flat = lens.projection->is_flat;
+  if (flat) aim_flat(r, at, lens);
+  for (uint32_t k = 0; !flat && k < kPacketSize; ++k) {
     if (!lens.covers(at[k])) active &= ~(1u << k);
     const Vec3 direction = active >> k & 1u ? lens.find_direction(at[k]) : lens.forward;
     r.direction_x[k] = direction.x, r.direction_y[k] = direction.y, r.direction_z[k] = direction.z;
@@ -140,7 +141,7 @@ uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], c
       RayPacket& r = packet.ray;
       const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
       const bool is_back = face != kNone && dot(direction, faces.normal[face]) >= 0;
-      if (is_back && !lens.hemisphere) {
+      if (is_back && !lens.projection->hides_backs) {
         // Go on just behind it.
         const float reached = r.far_distance[k];
         r.near_distance[k] = reached + 2 * ray_offset(lens.eye + reached * direction);

@@ -22,8 +22,8 @@ struct Prospect {
 };
 
 // What the rays through the points `at` meet, in pixels from the top left. Looks through back sides, except
-// in a hemisphere. `guess` is an element that may be seen, or kNone; it becomes one that is. It changes
-// nothing but the time. Returns the number of rays.
+// where the projection hides what is behind them. `guess` is an element that may be seen, or kNone; it
+// becomes one that is. It changes nothing but the time. Returns the number of rays.
 uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], const Prospect& prospect);
 
 }  // namespace patchlight

@@ -226,9 +226,9 @@ TEST_CASE("film: a flat one can be made before the mesh is final") {
 }
 
 TEST_CASE("film: a lens finds the place of what it looks at, flat or as a hemisphere") {
-  for (const bool hemisphere : {false, true}) {
+  for (const Projection& projection : projections()) {
     View view = make_view({0.1f, 0.2f, 0.3f}, {0.5f, 0.1f, 0.9f}, 80, 60);
-    view.hemisphere = hemisphere;
+    view.projection = &projection;
     const Lens lens = make_lens(view);
     for (const Vec2& at : {Vec2(40, 30), Vec2(25.5f, 31), Vec2(50, 12), Vec2(60, 45.25f)}) {
       REQUIRE(lens.covers(at));
@@ -246,7 +246,7 @@ TEST_CASE("film: a lens finds the place of what it looks at, flat or as a hemisp
 TEST_CASE("film: in a hemisphere, angles from the middle are distances from it") {
   View view = make_view(Vec3(0), {0, 1, 0}, 100, 100);
   view.up = {0, 0, -1};
-  view.hemisphere = true;
+  view.projection = find_projection("fisheye");
   const Lens lens = make_lens(view);
   // Half way to the right: 45 degrees towards -x, which is on the right of who lies on the back, head to -z.
   const Vec3 direction = lens.find_direction({75, 50});
@@ -262,7 +262,7 @@ TEST_CASE("film: a hemisphere is full in a closed room, empty outside of its cir
   const Solution run = solve_scene(faces, {}, 1);
   View view = make_view({0.2f, 1e-5f, 0.2f}, {0.2f, 1, 0.2f}, 48, 48);
   view.up = {0, 0, -1};
-  view.hemisphere = true;
+  view.projection = find_projection("fisheye");
   const FilmTable film = make_film(make_scenery(run), view, {true, false, 1});
   check_shape(film, view, run.mesh.element_vertices.size());
   const Lens lens = make_lens(view);

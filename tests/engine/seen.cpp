@@ -30,8 +30,8 @@ TEST_CASE(
   View view{.eye = {0.45f, 0.5f, 2.2f}, .target = {0.5f, 0.45f, 0}, .up = {0, 1, 0}};
   view.fov_degrees = 50, view.width = 64, view.height = 48;
   size_t hit_count = 0, mixed_count = 0;
-  for (const bool hemisphere : {false, true}) {
-    view.hemisphere = hemisphere;
+  for (const Projection& projection : projections()) {
+    view.projection = &projection;
     const Lens lens = make_lens(view);
     const Prospect prospect{lens, *s.surfaces, s.mesh.elements};
     uint32_t guess = kNone;

@@ -88,7 +88,7 @@ View make_patch_view(const PatchPlace& place, uint32_t size) {
           .up = lies ? Vec3(0, 0, -1) : Vec3(0, 1, 0),
           .width = size,
           .height = size,
-          .hemisphere = true};
+          .projection = find_projection("fisheye")};
 }
 
 // Grey around the circle, with a smooth border.
