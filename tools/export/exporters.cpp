@@ -12,7 +12,7 @@ namespace patchlight {
 using EncodePicture = std::string(const Picture&);
 using EncodeAnimation = std::string(const Animation&);
 using ExportRun = void(NewFile&, const FinishedRun&);
-EncodePicture encode_png, encode_exr, encode_hdr;
+EncodePicture encode_png, encode_exr, encode_hdr, encode_pfm;
 EncodeAnimation encode_gif;
 ExportRun export_convergence, export_rounds, export_csv, export_glb, export_ply, export_obj, export_html,
     export_report;
@@ -24,6 +24,7 @@ constexpr Exporter kExporters[] = {
     // Two pictures with their channels, each as columns of its own, as the library's blocks and as its file.
     {.format = "exr", .encode_picture = encode_exr, .layers = true, .bytes_per_pixel = 340},
     {.format = "hdr", .encode_picture = encode_hdr},
+    {.format = "pfm", .encode_picture = encode_pfm},
     {.format = "gif", .encode_animation = encode_gif, .exposed = true},
     {.format = "svg", .export_run = export_convergence, .name_end = "-convergence"},
     {.format = "svg", .export_run = export_rounds, .name_end = "-rounds"},

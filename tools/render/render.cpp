@@ -6,6 +6,7 @@
 #include "tools/base/start.h"
 #include "tools/base/stop.h"
 #include "tools/export/exporters.h"
+#include "tools/export/lit_mesh.h"
 #include "tools/render/pictures.h"
 #include "tools/render/series.h"
 #include "tools/render/solve.h"
@@ -156,7 +157,7 @@ void write_report(Made& made, const Task& task, const std::string& path, Stopwat
   report.seconds.trace = made.solution.log.trace_seconds;
   report.seconds.split = made.solution.log.split_seconds;
   report.seconds.solve = made.solution.log.solve_seconds;
-  report.seconds.total = whole.read();
+  report.seconds.total = whole.lap();
   write_run_file(made, task, find_report(), path);
   made.files.tables.insert(made.files.tables.begin(), path);
 }
@@ -246,7 +247,7 @@ int render(const Options& options, Talk& talk) {
   const std::string report_path =
       own.report.empty() ? folder.path + "/" + name_run_file(plan.stem, find_report()) : own.report;
   check_file_writable(report_path);
-  report.seconds.load = loading.read();
+  report.seconds.load = loading.lap();
 
   try {
     solve(made, task, talk);

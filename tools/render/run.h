@@ -58,7 +58,7 @@ class StageTimer {
   explicit StageTimer(double& seconds) : seconds_(seconds) {}
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
-  ~StageTimer() { seconds_ += watch_.read(); }
+  ~StageTimer() { seconds_ += watch_.lap(); }
 
  private:
   double& seconds_;

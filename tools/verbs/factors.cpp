@@ -3,7 +3,7 @@
 #include "tools/verbs/factors.h"
 
 #include "engine/parallel.h"
-#include "engine/solution.h"
+#include "engine/stopwatch.h"
 #include "tools/base/files.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"
@@ -245,7 +245,7 @@ int factors(const Options& options, Talk& talk) {
                     escape_text(scene.polygons.id[summary.error_from]),
                     escape_text(scene.polygons.id[summary.error_to])),
         scene.file);
-  say_summary(talk, scene, table, summary, watch.read());
+  say_summary(talk, scene, table, summary, watch.lap());
   return 0;
 }
 

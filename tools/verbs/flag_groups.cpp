@@ -4,6 +4,7 @@
 #include "dsl/limits.h"
 #include "engine/solvers.h"
 #include "tools/base/flag_values.h"
+#include "tools/base/format.h"
 #include "tools/image/tone.h"
 
 #include <fmt/format.h>
