@@ -3,7 +3,7 @@
 
 namespace patchlight {
 
-// Two functions a verb, in the verb's own file.
+// Two functions a verb, in the verb's own file; what render does stands in the folder render.
 using Describe = void(Usage&, Options&);
 using Run = int(const Options&, Talk&);
 Describe describe_render, describe_view, describe_check, describe_verify, describe_show, describe_factors,
