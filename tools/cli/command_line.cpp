@@ -2,7 +2,7 @@
 // flags; the flags' own functions read values, because CLI11 takes nan for a number and 010 for eight.
 #include "tools/cli/command_line.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/version.h"
 

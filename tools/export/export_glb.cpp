@@ -3,7 +3,7 @@
 // The container is two chunks and the text is JSON, which json.h writes: a library for glTF would bring its
 // own JSON, image code and a second copy of the mesh for these hundred lines. Colours are light that is there
 // already: KHR_materials_unlit shows COLOR_0 as it is.
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tools/base/bytes.h"
 #include "tools/base/json.h"
 #include "tools/base/version.h"

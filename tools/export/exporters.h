@@ -1,7 +1,7 @@
 // The files that render writes: one row a kind, one file export_NAME.cpp a row.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "tools/base/files.h"
 #include "tools/export/pass_record.h"
 #include "tools/export/run_report.h"

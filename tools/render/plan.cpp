@@ -1,8 +1,8 @@
 // Options over scene -> Plan, and the limits.
 #include "tools/render/plan.h"
 
-#include "dsl/diagnostics.h"
-#include "dsl/limits.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/report/limits.h"
 #include "engine/film.h"
 #include "engine/forecast.h"
 #include "engine/parallel.h"

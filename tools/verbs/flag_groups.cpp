@@ -1,7 +1,7 @@
 // Flags that several verbs have.
 #include "tools/verbs/flag_groups.h"
 
-#include "dsl/limits.h"
+#include "dsl/report/limits.h"
 #include "engine/solvers.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"

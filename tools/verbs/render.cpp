@@ -1,7 +1,7 @@
 // The flags of the verb render. What it does stands in render.cpp of the folder render.
 #include "tools/render/render.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tools/base/flag_values.h"
 #include "tools/export/exporters.h"
 #include "tools/image/false_colors.h"

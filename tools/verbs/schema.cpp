@@ -1,8 +1,8 @@
 // The language's tables of keys to a JSON Schema (draft-07): one definition a table, one property a row.
 #include "tools/verbs/schema.h"
 
-#include "dsl/shapes.h"
-#include "dsl/values.h"
+#include "dsl/language/values.h"
+#include "dsl/shapes/shapes.h"
 #include "tools/base/files.h"
 #include "tools/base/json.h"
 #include "tools/verbs/verbs.h"

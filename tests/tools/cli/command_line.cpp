@@ -1,7 +1,7 @@
 // Words of the command line: what they mean, and what is said of mistakes.
 #include "tools/cli/command_line.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tools/base/flag_values.h"
 #include "tools/image/false_colors.h"
 #include "tools/image/tone.h"

@@ -1,7 +1,7 @@
 // What a run will do, from scene and flags.
 #include "tools/render/plan.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tools/image/false_colors.h"
 #include "tools/image/tone.h"
 
