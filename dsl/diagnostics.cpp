@@ -11,11 +11,6 @@
 namespace patchlight {
 namespace {
 
-// Slugs that do not mean "the scene is wrong" (3): everything else does.
-struct SlugExit {
-  std::string_view slug;
-  int code;
-};
 constexpr std::array kSlugExits = {
     SlugExit{"expectation-missed", 1}, SlugExit{"usage", 2},
     SlugExit{"cannot-open", 4},        SlugExit{"cannot-write", 4},
@@ -90,6 +85,8 @@ UserError::UserError(std::string_view slug, std::string message, std::string fil
   diagnostic.file = std::move(file);
   diagnostics.push_back(std::move(diagnostic));
 }
+
+std::span<const SlugExit> slug_exits() { return kSlugExits; }
 
 int exit_code(std::string_view slug) {
   for (const SlugExit& row : kSlugExits)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +36,15 @@ struct UserError : std::exception {
   const char* what() const noexcept override { return diagnostics.front().message.c_str(); }
 };
 
-// 2 usage, 3 the scene is wrong, 4 input/output, 5 a limit or memory: the exit code that belongs to a slug.
+// The slugs that do not mean that the scene is wrong, each with its exit code: 1 an expectation is missed, 2
+// usage, 4 input/output, 5 a limit or memory.
+struct SlugExit {
+  std::string_view slug;
+  int code;
+};
+std::span<const SlugExit> slug_exits();
+
+// The exit code that belongs to a slug: 3, the scene is wrong, where it is not among slug_exits.
 int exit_code(std::string_view slug);
 
 // The same for a whole message: undefined-variable and non-finite are 2 when they come from the command line.

@@ -2,6 +2,7 @@
 #include "effective.h"
 
 #include "expression.h"
+#include "text.h"
 #include "variables.h"
 
 #include <fmt/format.h>

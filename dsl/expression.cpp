@@ -2,6 +2,7 @@
 #include "expression.h"
 
 #include "limits.h"
+#include "text.h"
 #include "variables.h"
 
 #include <fmt/format.h>
@@ -187,7 +188,6 @@ std::string_view leading_name(std::string_view text) {
 bool is_expression(std::string_view text) { return text.starts_with('=') || text.starts_with('$'); }
 
 bool evaluate(const Context& context, uint32_t node, double& value) {
-  // Evaluating a variable may not move the tree's text, so the view stays good.
   Parser parser{context, node, text_of(context.tree, node)};
   try {
     const Limits& limits = context.messages.limits;

@@ -1,7 +1,9 @@
 // Texts like =$w/2 to numbers.
 #pragma once
 
-#include "number.h"
+#include "context.h"
+
+#include <string_view>
 
 namespace patchlight {
 

@@ -2,7 +2,7 @@
 #include "faces.h"
 
 #include "cut.h"
-#include "flat_polygon.h"
+#include "flatten.h"
 #include "limits.h"
 
 #include <fmt/format.h>
@@ -58,9 +58,7 @@ bool flatten(Messages& messages, const Tree& tree, const ObjectTable& objects, c
              uint32_t p, FlatPolygon& flat) {
   if (!objects.is_mesh[outlines.object[p]]) return flatten_polygon(messages, tree, outlines, p, flat);
   const uint32_t ring = outlines.polygon_first[p];
-  const auto corners =
-      std::span(outlines.corners)
-          .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
+  const auto corners = ring_of(outlines, ring);
   for (const DVec3& c : corners)
     if (!(std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}) <= kCoordinateMax)) {
       add_error(messages, place_of(tree, outlines.ring_node[ring]), "coordinate-too-large",
@@ -297,11 +295,7 @@ void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable&
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
   };
-  const auto ring = [&](uint32_t p) {
-    const uint32_t r = outlines.polygon_first[p];
-    return std::span(outlines.corners)
-        .subspan(outlines.ring_first[r], outlines.ring_first[r + 1] - outlines.ring_first[r]);
-  };
+  const auto ring = [&](uint32_t p) { return ring_of(outlines, outlines.polygon_first[p]); };
   std::vector<Row> rows(outlines.size());
   for (uint32_t p = 0; p < outlines.size(); ++p) {
     uint64_t sum = 0;  // a sum: the order of the corners does not matter

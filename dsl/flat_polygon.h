@@ -1,11 +1,9 @@
-// An outline checked and laid flat: what the cutters work on.
+// A polygon on its own plane: what the checks and the cutters work on.
 #pragma once
 
-#include "messages.h"
-#include "outlines.h"
-#include "tree.h"
+#include "engine/vector.h"
 
-#include <span>
+#include <vector>
 
 namespace patchlight {
 
@@ -30,19 +28,6 @@ struct FlatPolygon {
 constexpr double kQuadFlatMax = 2e-6;
 constexpr double kFlatMax = 1e-4;       // off_plane up to which a polygon counts as flat
 constexpr double kNonPlanarMax = 0.02;  // off_plane up to which it is cut into triangles
-
-// Lays polygon `p` flat and checks it. False after an error: too-few-vertices, zero-area, non-planar,
-// coordinate-too-large, self-intersecting, hole-outside, hole-touches, holes-overlap. Warnings:
-// repeated-vertex, closed-ring, non-planar. `polygon` is written; its memory is reused from call to call.
-bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
-                     FlatPolygon& polygon);
-
-enum class MeshFace : uint8_t { kSound, kNoArea, kCrossing };
-
-// The same for a face of a mesh, without a word: corners that repeat are left out, and corners may lie off
-// one plane by any distance. An outline that touches itself may be a hole that a seam joins to it, which can
-// be cut, or cross itself: only cutting it tells.
-MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon);
 
 // Twice the signed area of the triangle a, b, c: above 0 when counter-clockwise.
 inline double turn(DVec2 a, DVec2 b, DVec2 c) {

@@ -34,11 +34,6 @@ struct Shells {
   size_t size() const { return bad.size(); }
 };
 
-std::span<const DVec3> ring_of(const OutlineTable& outlines, uint32_t ring) {
-  return std::span(outlines.corners)
-      .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
-}
-
 // Twice the area of a ring as a vector along its normal.
 DVec3 area_of(std::span<const DVec3> ring) {
   DVec3 sum(0);

@@ -1,10 +1,8 @@
-// The language's tables. A new key is one row here and one line where it is used.
+// The language's tables, but for those of objects and shapes. A new key is one row here and one line where it
+// is used.
 #include "language.h"
 
 #include "limits.h"
-#include "shapes.h"
-
-#include <vector>
 
 namespace patchlight {
 namespace {
@@ -129,50 +127,6 @@ constexpr KeyRow kOutputRows[] = {
      "First part of the files' names. Absent: the scene file's name."},
 };
 
-constexpr KeyRow kSharedObjectRows[] = {
-    {"id", kName, false, "", 0, 0, "bad-id", "",
-     "Name of the object. Absent: object1, object2 ... by place."},
-    {"material", kText, false, "", 0, 0, "", "",
-     "Name of its material. Required, but for meshes, for rooms that name all walls, and inside of groups."},
-    {"holes", kRings, false, "", 0, 0, "", "", "Beside polygon: lists of corners, each one a hole."},
-    {"materials", kMap, false, "", 0, 0, "", "*text",
-     "Beside mesh: materials by the names that the OBJ file gives them."},
-    {"transform", kList, false, "", 0, 0, "", "transform",
-     "Steps in order, each one of translate, rotate, scale."},
-    {"translate", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Shift by [x, y, z], after scale and rotate."},
-    {"rotate", kMap, false, "", 0, 0, "", "rotate", "Turn after scale: {axis, angle}."},
-    {"scale", kScale, false, "", 0, 0, "", "", "Stretch by a number or [x, y, z]; negative ones mirror."},
-    {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
-    {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Longest edge of a starting patch on this object. Absent: as the solver says."},
-    {"subdivide", kInteger, false, "1", 1, kAnyInteger, "out-of-range", "",
-     "At least n times n patches on each polygon to start with."},
-};
-constexpr KeyRule kObjectRules[] = {
-    {kNeeds, "holes", "polygon", "unknown-key", "'holes' goes with 'polygon' only"},
-    {kNeeds, "materials", "mesh", "unknown-key", "'materials' goes with 'mesh' only"},
-    {kExcludes, "translate|rotate|scale", "transform", "ambiguous-shape",
-     "an object has either 'transform' or the short keys translate, rotate, scale"},
-};
-
-// The shared rows and one a shape, joined once.
-std::span<const KeyRow> object_rows() {
-  static const std::vector<KeyRow> rows = [] {
-    std::vector<KeyRow> all(std::begin(kSharedObjectRows), std::end(kSharedObjectRows));
-    for (const ShapeRow& shape : shape_rows()) {
-      KeyRow row;
-      row.key = shape.name;
-      row.type = shape.type;
-      row.choices = shape.keys ? shape.keys->name : shape.type == kList ? "object" : "";
-      row.description = shape.description;
-      all.push_back(row);
-    }
-    return all;
-  }();
-  return rows;
-}
-
 }  // namespace
 
 const KeyTable kSceneKeys = {"scene", kSceneRows, kSceneRules};
@@ -184,24 +138,5 @@ const KeyTable kMaterialKeys = {"material", kMaterialRows, kMaterialRules};
 const KeyTable kCameraKeys = {"camera", kCameraRows};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};
-
-const KeyTable& object_keys() {
-  static const KeyTable table = {"object", object_rows(), kObjectRules};
-  return table;
-}
-
-std::span<const KeyTable* const> language_tables() {
-  static const std::vector<const KeyTable*> tables = [] {
-    std::vector<const KeyTable*> all = {&kSceneKeys,    &kIncludeKeys,   &kMaterialKeys,
-                                        &object_keys(), &kTransformKeys, &kRotateKeys};
-    for (const ShapeRow& shape : shape_rows())
-      if (shape.keys) all.push_back(shape.keys);
-    all.push_back(&kWallKeys);
-    for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys, &kExpectKeys})
-      all.push_back(table);
-    return all;
-  }();
-  return tables;
-}
 
 }  // namespace patchlight

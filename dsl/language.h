@@ -58,7 +58,7 @@ enum class RuleKind : uint8_t {
   kOneOf,     // one of `keys` at least must be there; told at the map
 };
 
-// What holds between keys of one map: a|b|c each. `text` is the message.
+// What holds between keys of one map: a|b|c each. `text` is the message, {} in it the name of the table.
 struct KeyRule {
   RuleKind kind;
   std::string_view keys, others;
@@ -84,11 +84,5 @@ extern const KeyTable kMaterialKeys;
 extern const KeyTable kCameraKeys;
 extern const KeyTable kSolverKeys;
 extern const KeyTable kOutputKeys;
-
-// The keys of an object: the shared ones, then one for each shape (see shapes.h).
-const KeyTable& object_keys();
-
-// All tables, those of the shapes included, in the order in which they are best read.
-std::span<const KeyTable* const> language_tables();
 
 }  // namespace patchlight

@@ -6,6 +6,7 @@
 #include "expect.h"
 #include "faces.h"
 #include "include.h"
+#include "let.h"
 #include "limits.h"
 #include "materials.h"
 #include "objects.h"
@@ -16,7 +17,6 @@
 #include "suspicious.h"
 #include "tree.h"
 #include "values.h"
-#include "variables.h"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ uint32_t node_of(const Tree& tree, const MapValues& map, std::string_view key, N
 
 // Variables, materials and objects of all files: included ones come first.
 void read_contents(Context& context, const std::vector<SceneFile>& files, const LoadOptions& options,
-                   SceneObjects& objects) {
+                   VariableTable& variables, SceneObjects& objects) {
   const Tree& tree = context.tree;
   const auto for_files = [&](std::string_view key, NodeKind kind, auto&& read) {
     for (const SceneFile& file : files) {
@@ -56,9 +56,9 @@ void read_contents(Context& context, const std::vector<SceneFile>& files, const 
     }
     context.prefix.clear();
   };
-  for_files("let", NodeKind::kMap, [&](uint32_t node) { read_let(context, node, *context.variables); });
-  define_variables(context, options.definitions);
-  check_variables(context);
+  for_files("let", NodeKind::kMap, [&](uint32_t node) { read_let(context, node, variables); });
+  define_variables(context.messages, options.definitions, variables);
+  work_out_variables(context, variables);
   for_files("materials", NodeKind::kMap,
             [&](uint32_t node) { read_materials(context, node, objects.materials); });
   for_files("objects", NodeKind::kList, [&](uint32_t node) { read_objects(context, node, objects); });
@@ -139,7 +139,7 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   const std::vector<SceneFile> files = read_includes(context, tree, root, path);
   const MapValues& map = files.back().map;
   SceneObjects objects;
-  read_contents(context, files, options, objects);
+  read_contents(context, files, options, variables, objects);
   read_settings(context, map, scene);
   check_not_empty(context, map, objects);
   if (!objects.is_full) {

@@ -1,6 +1,7 @@
 // The map `materials` to a table.
 #include "materials.h"
 
+#include "text.h"
 #include "values.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 // Wavefront MTL: the diffuse reflectances of an OBJ file's materials.
-#include "mtl.h"
-
 #include "limits.h"
+#include "mesh_formats.h"
+#include "scene_path.h"
 #include "statements.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -23,9 +25,9 @@ bool read_colour(Messages& messages, StatementReader& reader, DRgb& colour) {
   return next_number(messages, reader, colour.g) && next_number(messages, reader, colour.b);
 }
 
-}  // namespace
-
-bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
+// Appends the materials of messages.files[file]. Only Kd, Ke, map_Kd, d and Tr are read. False after errors:
+// mesh-invalid, non-finite, number-out-of-range.
+bool read_mtl(Messages& messages, uint32_t file, MeshMaterials& table) {
   StatementReader reader = read_statements(messages, file);
   const size_t errors_before = messages.error_count, first = table.size();
   std::string_view keyword;
@@ -35,7 +37,7 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
       table.name.emplace_back(rest_of(reader));
       table.place.push_back(place_of(reader, keyword));
       table.reflectance.emplace_back(0);
-      table.has_kd.push_back(0);
+      table.has_reflectance.push_back(0);
       table.emits.push_back(0);
       table.textured.push_back(0);
       table.transparent.push_back(0);
@@ -47,7 +49,7 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
     DRgb colour(0);
     if (keyword == "Kd" && read_colour(messages, reader, colour)) {
       table.reflectance.back() = colour;
-      table.has_kd.back() = 1;
+      table.has_reflectance.back() = 1;
     } else if (keyword == "Ke" && read_colour(messages, reader, colour)) {
       table.emits.back() = std::max({colour.r, colour.g, colour.b}) > 0;
     } else if (keyword == "map_Kd") {
@@ -62,6 +64,47 @@ bool read_mtl(Messages& messages, uint32_t file, MtlTable& table) {
     }
   }
   return messages.error_count == errors_before;
+}
+
+// The files that a mtllib names: one, whose name may have blanks, or several.
+std::vector<FoundFile> find_libraries(const Messages& messages, std::string library,
+                                      const std::string& folder) {
+  std::replace(library.begin(), library.end(), '\\', '/');  // paths from Windows
+  std::vector<FoundFile> found = {locate_scene_file(messages, library, folder, "include-not-found")};
+  if (!found[0].path.empty() || library.find_first_of(" \t") == std::string::npos) return found;
+  found.clear();
+  for (size_t first = 0; first < library.size();) {
+    const size_t end = std::min(library.find_first_of(" \t", first), library.size());
+    if (end > first)
+      found.push_back(
+          locate_scene_file(messages, library.substr(first, end - first), folder, "include-not-found"));
+    first = end + 1;
+  }
+  return found;
+}
+
+}  // namespace
+
+// Reads all files that mtllib names. One that is not there, or not to be read, is a warning.
+bool read_mtl_files(Messages& messages, uint32_t file, MeshTable& mesh) {
+  const std::string folder = messages.files[file].folder;
+  bool good = true;
+  for (size_t k = 0; k < mesh.library.size(); ++k) {
+    const Place place{file, mesh.library_line[k], 1};
+    for (const FoundFile& found : find_libraries(messages, mesh.library[k], folder)) {
+      if (found.path.empty()) {
+        mesh.library_missing = true;
+        add_warning(
+            messages, place, found.slug,
+            fmt::format("{}: its materials get a reflectance of {}", found.message, kDefaultReflectance));
+        continue;
+      }
+      const uint32_t row =
+          add_scene_file(messages, place, found.path, &Limits::mesh_bytes, messages.mesh_bytes);
+      good = row != kNone && read_mtl(messages, row, mesh.defined) && good;
+    }
+  }
+  return good;
 }
 
 }  // namespace patchlight

@@ -2,6 +2,7 @@
 #include "objects.h"
 
 #include "limits.h"
+#include "object_keys.h"
 #include "shapes.h"
 #include "transform.h"
 
@@ -51,11 +52,11 @@ bool read_own(const Context& context, const MapValues& map, MaterialTable& mater
   return true;
 }
 
-uint32_t add_object(uint32_t node, const Inherited& own, bool is_mesh, ObjectTable& objects) {
+uint32_t add_object(uint32_t node, const Inherited& own, ObjectTable& objects) {
   objects.node.push_back(node);
   objects.top.push_back(own.top);
   objects.two_sided.push_back(own.two_sided);
-  objects.is_mesh.push_back(is_mesh);
+  objects.is_mesh.push_back(0);
   objects.patch_size.push_back(own.patch_size);
   objects.subdivide.push_back(own.subdivide);
   objects.subdivide_node.push_back(own.subdivide_node);
@@ -108,8 +109,7 @@ void read_object(const Context& context, uint32_t node, const ObjectName& name, 
   const uint32_t id_node = value_of(map, "id").node;
   const std::string id =
       id_node != kNone ? name.prefix + std::string(text_of(context.tree, id_node)) : name.unnamed;
-  const uint32_t row =
-      add_object(id_node != kNone ? id_node : node, own, shape->name == "mesh", scene.objects);
+  const uint32_t row = add_object(id_node != kNone ? id_node : node, own, scene.objects);
   const size_t first = scene.outlines.size();
   shape->build({context, map, value_of(map, shape->name).node, id, own, row, scene});
   if (moved) apply_transform(transform, node, first, scene.outlines);

@@ -35,6 +35,12 @@ struct OutlineTable {
   size_t size() const { return id.size(); }
 };
 
+// The corners of a ring.
+inline std::span<const DVec3> ring_of(const OutlineTable& outlines, uint32_t ring) {
+  return std::span(outlines.corners)
+      .subspan(outlines.ring_first[ring], outlines.ring_first[ring + 1] - outlines.ring_first[ring]);
+}
+
 // Adds a polygon with its outline, corners counter-clockwise from the lit side.
 void add_polygon(OutlineTable& outlines, uint32_t object, std::string id, uint32_t material, uint32_t node,
                  std::span<const DVec3> corners);

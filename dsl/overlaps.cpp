@@ -139,12 +139,8 @@ bool share_area(const FaceTable& faces, const PolygonTable& polygons, uint32_t a
 
 // The same corners, in any order.
 bool same_corners(const OutlineTable& outlines, uint32_t p, uint32_t q) {
-  const auto ring = [&](uint32_t polygon) {
-    const uint32_t r = outlines.polygon_first[polygon];
-    return std::span(outlines.corners)
-        .subspan(outlines.ring_first[r], outlines.ring_first[r + 1] - outlines.ring_first[r]);
-  };
-  const auto a = ring(p), b = ring(q);
+  const auto a = ring_of(outlines, outlines.polygon_first[p]),
+             b = ring_of(outlines, outlines.polygon_first[q]);
   return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const DVec3& corner) {
            return std::find(b.begin(), b.end(), corner) != b.end();
          });
@@ -170,9 +166,8 @@ bool is_overlap(const PlaneTable& planes, const OutlineTable& outlines, const Sc
   const auto face_count = [&](size_t k) -> size_t {
     return polygons.face_first[planes.polygon[k] + 1] - polygons.face_first[planes.polygon[k]];
   };
-  const auto corner_count = [&](size_t k) -> size_t {
-    const uint32_t ring = outlines.polygon_first[planes.outline[k]];
-    return outlines.ring_first[ring + 1] - outlines.ring_first[ring];
+  const auto corner_count = [&](size_t k) {
+    return ring_of(outlines, outlines.polygon_first[planes.outline[k]]).size();
   };
   const size_t needed = face_count(i) * face_count(j) + corner_count(i) * corner_count(j);
   if (needed > kWorkMax - work) return false;

@@ -1,6 +1,6 @@
 // box: six sides that face outward, ID.floor to ID.back.
 #include "limits.h"
-#include "shapes.h"
+#include "shape.h"
 #include "sides.h"
 
 #include <fmt/format.h>
@@ -14,16 +14,23 @@ constexpr KeyRow kRows[] = {
     {"at", ValueType::kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "The low corner."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"box", kRows};
 
-const KeyTable kBoxKeys = {"box", kRows};
-
-void build_box(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kBoxKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
   const DVec3 low = vec3_of(value_of(map, "at")), high = low + vec3_of(value_of(map, "size"));
   for (size_t side = 0; side < kSideNames.size(); ++side)
     add_part(input, fmt::format(".{}", kSideNames[side]), side_corners(side, low, high, false));
 }
+
+}  // namespace
+
+extern const ShapeRow kBoxShape = {
+    .name = "box",
+    .keys = &kKeys,
+    .build = build,
+    .description = "A box whose six sides face outward.",
+};
 
 }  // namespace patchlight

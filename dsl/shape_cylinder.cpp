@@ -1,7 +1,7 @@
 // cylinder: upright walls ID.0, ID.1 ... and, with caps, ID.bottom and ID.top.
 #include "limits.h"
 #include "rings.h"
-#include "shapes.h"
+#include "shape.h"
 #include "walls.h"
 
 namespace patchlight {
@@ -19,12 +19,10 @@ constexpr KeyRow kRows[] = {
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"cylinder", kRows};
 
-const KeyTable kCylinderKeys = {"cylinder", kRows};
-
-void build_cylinder(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kCylinderKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
   // z before x: counter-clockwise seen from above.
   const std::vector<DVec3> low =
@@ -34,5 +32,14 @@ void build_cylinder(const ShapeInput& input) {
   for (DVec3& corner : high) corner.y += value_of(map, "height").number[0];
   add_walls(input, low, high, value_of(map, "caps").integer[0] != 0, value_of(map, "inward").integer[0] != 0);
 }
+
+}  // namespace
+
+extern const ShapeRow kCylinderShape = {
+    .name = "cylinder",
+    .keys = &kKeys,
+    .build = build,
+    .description = "An upright cylinder of flat sides.",
+};
 
 }  // namespace patchlight

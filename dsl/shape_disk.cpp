@@ -1,7 +1,7 @@
 // disk: one polygon of equal sides, its corners on a circle.
 #include "limits.h"
 #include "rings.h"
-#include "shapes.h"
+#include "shape.h"
 
 namespace patchlight {
 namespace {
@@ -17,12 +17,10 @@ constexpr KeyRow kRows[] = {
     {"sides", kInteger, false, "24", 3, kSidesMax, "out-of-range", "", "Number of corners."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"disk", kRows};
 
-const KeyTable kDiskKeys = {"disk", kRows};
-
-void build_disk(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kDiskKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   DVec3 normal, width, height;
   if (!require_material(input) || !map.good ||
       !read_direction(input.context, value_of(map, "normal"), normal))
@@ -32,5 +30,14 @@ void build_disk(const ShapeInput& input) {
            make_ring(vec3_of(value_of(map, "center")), width, height, value_of(map, "radius").number[0],
                      value_of(map, "sides").integer[0]));
 }
+
+}  // namespace
+
+extern const ShapeRow kDiskShape = {
+    .name = "disk",
+    .keys = &kKeys,
+    .build = build,
+    .description = "A flat polygon of equal sides, its corners on a circle.",
+};
 
 }  // namespace patchlight

@@ -1,47 +1,34 @@
 // grid: a quad cut into nx times ny polygons, ID.0, ID.1 ... row by row from its first corner.
-#include "limits.h"
-#include "shapes.h"
+#include "quad.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace patchlight {
 namespace {
 
-using enum ValueType;
-using enum RuleKind;
+constexpr auto kRows = [] {
+  std::array<KeyRow, std::size(kQuadRows) + 1> rows;
+  std::copy(std::begin(kQuadRows), std::end(kQuadRows), rows.begin());
+  rows.back() = {"cells",
+                 ValueType::kIntegers2,
+                 true,
+                 "",
+                 1,
+                 kAnyInteger,
+                 "out-of-range",
+                 "",
+                 "Polygons along the width and the height."};
+  return rows;
+}();
 
-constexpr KeyRow kRows[] = {
-    {"size", kVec2, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
-     "Width and height. Required with center and normal."},
-    {"center", kVec3, false, "0 0 0", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Middle of the rectangle."},
-    {"normal", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Towards the lit side, any length."},
-    {"origin", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "A corner; then u and v are required."},
-    {"u", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Edge from origin to the second corner."},
-    {"v", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "Edge from origin to the last corner; the lit side is u x v."},
-    {"cells", kIntegers2, true, "", 1, kAnyInteger, "out-of-range", "",
-     "Polygons along the width and the height."},
-};
+constexpr KeyTable kKeys = {"grid", kRows, kQuadRules};
 
-constexpr KeyRule kRules[] = {
-    {kOneOf, "size|origin", "", "missing-key", "a grid needs its size: [width, height], or origin, u and v"},
-    {kExcludes, "center|size|normal", "origin|u|v", "ambiguous-shape",
-     "a grid has either center, size, normal or origin, u, v"},
-    {kNeeds, "origin|u|v", "origin|u|v", "missing-key", "a grid by edges needs origin, u and v"},
-};
-
-}  // namespace
-
-const KeyTable kGridKeys = {"grid", kRows, kRules};
-
-void build_grid(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kGridKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   std::array<DVec3, 4> quad;
-  if (!require_material(input) || !map.good || !read_quad(input, map, quad)) return;
+  if (!require_material(input) || !map.good || !read_quad(input.context, map, quad)) return;
   const int64_t nx = value_of(map, "cells").integer[0], ny = value_of(map, "cells").integer[1];
   uint64_t count = 0;
   const Limits& limits = input.context.messages.limits;
@@ -65,5 +52,14 @@ void build_grid(const ShapeInput& input) {
       add_part(input, fmt::format(".{}", y * nx + x), corners);
     }
 }
+
+}  // namespace
+
+extern const ShapeRow kGridShape = {
+    .name = "grid",
+    .keys = &kKeys,
+    .build = build,
+    .description = "A quad cut into separate polygons, ID.0, ID.1 ... row by row.",
+};
 
 }  // namespace patchlight

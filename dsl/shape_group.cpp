@@ -1,11 +1,13 @@
 // group: a list of objects that share a transform and settings. With an id, its objects are ID.theirs.
-#include "shapes.h"
+#include "objects.h"
+#include "shape.h"
 
 #include <fmt/format.h>
 
 namespace patchlight {
+namespace {
 
-void build_group(const ShapeInput& input) {
+void build(const ShapeInput& input) {
   const Tree& tree = input.context.tree;
   IdTable ids;
   size_t number = 0;
@@ -16,5 +18,14 @@ void build_group(const ShapeInput& input) {
                 input.own, input.scene);
   }
 }
+
+}  // namespace
+
+extern const ShapeRow kGroupShape = {
+    .name = "group",
+    .type = ValueType::kList,
+    .build = build,
+    .description = "A list of objects that share a transform and settings.",
+};
 
 }  // namespace patchlight

@@ -1,8 +1,13 @@
 // polygon: a list of corners, with `holes`, as it stands.
-#include "shapes.h"
+#include "shape.h"
 
 namespace patchlight {
 namespace {
+
+constexpr KeyRow kBeside[] = {
+    {"holes", ValueType::kRings, false, "", 0, 0, "", "",
+     "Beside polygon: lists of corners, each one a hole."},
+};
 
 // Is this a list of corners [x, y, z], where a list of such lists belongs?
 bool is_one_ring(const Tree& tree, uint32_t list) {
@@ -12,9 +17,7 @@ bool is_one_ring(const Tree& tree, uint32_t list) {
   return number != kNone && tree.nodes[number].kind == NodeKind::kScalar;
 }
 
-}  // namespace
-
-void build_polygon(const ShapeInput& input) {
+void build(const ShapeInput& input) {
   const Context& context = input.context;
   std::vector<DVec3> corners;
   const bool has_material = require_material(input);
@@ -32,5 +35,15 @@ void build_polygon(const ShapeInput& input) {
     if (!report_null(context, hole, "a list of corners") && read_corners(context, hole, "a hole", corners))
       add_hole(input.scene.outlines, hole, corners);
 }
+
+}  // namespace
+
+extern const ShapeRow kPolygonShape = {
+    .name = "polygon",
+    .type = ValueType::kCorners,
+    .beside = kBeside,
+    .build = build,
+    .description = "List of corners [x, y, z], counter-clockwise from the lit side.",
+};
 
 }  // namespace patchlight

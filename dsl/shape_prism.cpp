@@ -1,7 +1,7 @@
 // prism: a polygon pushed along its normal: walls ID.0, ID.1 ... and, with caps, ID.bottom and ID.top.
-#include "flat_polygon.h"
+#include "flatten.h"
 #include "limits.h"
-#include "shapes.h"
+#include "shape.h"
 #include "walls.h"
 
 namespace patchlight {
@@ -18,13 +18,11 @@ constexpr KeyRow kRows[] = {
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"prism", kRows};
 
-const KeyTable kPrismKeys = {"prism", kRows};
-
-void build_prism(const ShapeInput& input) {
+void build(const ShapeInput& input) {
   const Context& context = input.context;
-  const MapValues map = read_map(context, input.node, kPrismKeys);
+  const MapValues map = read_map(context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
   const uint32_t node = value_of(map, "base").node;
   std::vector<DVec3> base;
@@ -40,5 +38,14 @@ void build_prism(const ShapeInput& input) {
   add_walls(input, flat.points, top, value_of(map, "caps").integer[0] != 0,
             value_of(map, "inward").integer[0] != 0);
 }
+
+}  // namespace
+
+extern const ShapeRow kPrismShape = {
+    .name = "prism",
+    .keys = &kKeys,
+    .build = build,
+    .description = "A polygon pushed along its normal.",
+};
 
 }  // namespace patchlight

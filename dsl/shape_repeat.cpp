@@ -1,7 +1,8 @@
 // repeat: copies of an object, ID[i] or ID[i,j,k]: in rows by `step`, or by a transform applied again and
 // again.
 #include "limits.h"
-#include "shapes.h"
+#include "objects.h"
+#include "shape.h"
 #include "transform.h"
 
 #include <fmt/format.h>
@@ -97,12 +98,10 @@ bool count_copies(const ShapeInput& input, uint32_t node, const Counts& counts, 
   return false;
 }
 
-}  // namespace
+constexpr KeyTable kKeys = {"repeat", kRows, kRules};
 
-const KeyTable kRepeatKeys = {"repeat", kRows, kRules};
-
-void build_repeat(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kRepeatKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   if (!map.good) return;
   const auto report = [&](std::string_view slug, std::string message) {
     add_error(input.context.messages, place_of(input.context.tree, input.node), slug, std::move(message));
@@ -137,5 +136,14 @@ void build_repeat(const ShapeInput& input) {
         if (list != kNone) moved = combine(moved, each);
       }
 }
+
+}  // namespace
+
+extern const ShapeRow kRepeatShape = {
+    .name = "repeat",
+    .keys = &kKeys,
+    .build = build,
+    .description = "Copies of an object, in rows or by a transform applied again and again.",
+};
 
 }  // namespace patchlight

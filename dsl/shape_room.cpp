@@ -1,6 +1,6 @@
 // room: the sides of a box from inside, ID.floor to ID.back, some left out, some with materials of their own.
 #include "limits.h"
-#include "shapes.h"
+#include "shape.h"
 #include "sides.h"
 
 #include <fmt/format.h>
@@ -27,15 +27,13 @@ constexpr KeyRow kWallRows[] = {
     {"back", ValueType::kText, false, "", 0, 0, "", "", "Material of the back wall (low z)."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"room", kRows};
+constexpr KeyTable kInner[] = {{"walls", kWallRows}};
 
-const KeyTable kRoomKeys = {"room", kRows};
-const KeyTable kWallKeys = {"walls", kWallRows};
-
-void build_room(const ShapeInput& input) {
+void build(const ShapeInput& input) {
   const Context& context = input.context;
   const Tree& tree = context.tree;
-  const MapValues map = read_map(context, input.node, kRoomKeys);
+  const MapValues map = read_map(context, input.node, kKeys);
   if (!map.good) return;
   constexpr size_t kSideCount = kSideNames.size();
   std::array<bool, kSideCount> omitted{};
@@ -43,14 +41,14 @@ void build_room(const ShapeInput& input) {
   std::array<bool, kSideCount> named{};
   material.fill(input.own.material);
   if (const uint32_t list = value_of(map, "omit").node; list != kNone) {
-    KeyRow row = row_of(kRoomKeys, "omit");
+    KeyRow row = row_of(kKeys, "omit");
     row.type = ValueType::kChoice;
     for (uint32_t child = tree.nodes[list].first; child != kNone; child = tree.nodes[child].next)
       if (Value side; read_value(context, child, row, side))
         omitted[static_cast<size_t>(side.integer[0])] = true;
   }
   if (const uint32_t node = value_of(map, "walls").node; node != kNone) {
-    const MapValues walls = read_map(context, node, kWallKeys);
+    const MapValues walls = read_map(context, node, kInner[0]);
     for (size_t side = 0; side < kSideCount; ++side) {
       const uint32_t wall = walls.values[side].node;
       named[side] = wall != kNone;
@@ -66,5 +64,15 @@ void build_room(const ShapeInput& input) {
                 material[side], input.node, side_corners(side, low, high, true));
   }
 }
+
+}  // namespace
+
+extern const ShapeRow kRoomShape = {
+    .name = "room",
+    .keys = &kKeys,
+    .inner = kInner,
+    .build = build,
+    .description = "A box whose sides face inward; sides can be left out.",
+};
 
 }  // namespace patchlight

@@ -2,7 +2,7 @@
 // triangles at the poles.
 #include "limits.h"
 #include "rings.h"
-#include "shapes.h"
+#include "shape.h"
 
 #include <fmt/format.h>
 
@@ -22,12 +22,10 @@ constexpr KeyRow kRows[] = {
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
 };
 
-}  // namespace
+constexpr KeyTable kKeys = {"sphere", kRows};
 
-const KeyTable kSphereKeys = {"sphere", kRows};
-
-void build_sphere(const ShapeInput& input) {
-  const MapValues map = read_map(input.context, input.node, kSphereKeys);
+void build(const ShapeInput& input) {
+  const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
   const DVec3 center = vec3_of(value_of(map, "center"));
   const double radius = value_of(map, "radius").number[0];
@@ -58,5 +56,14 @@ void build_sphere(const ShapeInput& input) {
       add_part(input, fmt::format(".{}", number++), corners);
     }
 }
+
+}  // namespace
+
+extern const ShapeRow kSphereShape = {
+    .name = "sphere",
+    .keys = &kKeys,
+    .build = build,
+    .description = "A sphere of flat sides, its corners on the sphere.",
+};
 
 }  // namespace patchlight

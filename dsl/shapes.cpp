@@ -1,95 +1,18 @@
-// The list of shapes. A new one is its file and its row here.
+// The list of shapes, in the order in which the language tells of them. A new one is its file and its name
+// here.
 #include "shapes.h"
-
-#include "limits.h"
-
-#include <fmt/format.h>
-
-#include <cmath>
 
 namespace patchlight {
 
+extern const ShapeRow kPolygonShape, kQuadShape, kBoxShape, kRoomShape, kGridShape, kDiskShape,
+    kCylinderShape, kPrismShape, kSphereShape, kMeshShape, kGroupShape, kRepeatShape;
+
 std::span<const ShapeRow> shape_rows() {
-  using enum ValueType;
-  static constexpr ShapeRow kRows[] = {
-      {"polygon", kCorners, nullptr, build_polygon,
-       "List of corners [x, y, z], counter-clockwise from the lit side."},
-      {"quad", kMap, &kQuadKeys, build_quad,
-       "A rectangle by center, size and normal, or a parallelogram by origin, u, v."},
-      {"box", kMap, &kBoxKeys, build_box, "A box whose six sides face outward."},
-      {"room", kMap, &kRoomKeys, build_room, "A box whose sides face inward; sides can be left out."},
-      {"grid", kMap, &kGridKeys, build_grid, "A quad cut into separate polygons, ID.0, ID.1 ... row by row."},
-      {"disk", kMap, &kDiskKeys, build_disk, "A flat polygon of equal sides, its corners on a circle."},
-      {"cylinder", kMap, &kCylinderKeys, build_cylinder, "An upright cylinder of flat sides."},
-      {"prism", kMap, &kPrismKeys, build_prism, "A polygon pushed along its normal."},
-      {"sphere", kMap, &kSphereKeys, build_sphere, "A sphere of flat sides, its corners on the sphere."},
-      {"mesh", kText, nullptr, build_mesh, "Path of a Wavefront OBJ file: a polygon for each of its faces."},
-      {"group", kList, nullptr, build_group, "A list of objects that share a transform and settings."},
-      {"repeat", kMap, &kRepeatKeys, build_repeat,
-       "Copies of an object, in rows or by a transform applied again and again."},
+  static const ShapeRow rows[] = {
+      kPolygonShape,  kQuadShape,  kBoxShape,    kRoomShape, kGridShape,  kDiskShape,
+      kCylinderShape, kPrismShape, kSphereShape, kMeshShape, kGroupShape, kRepeatShape,
   };
-  return kRows;
-}
-
-bool require_material(const ShapeInput& input) {
-  if (input.own.material != kNone) return true;
-  add_error(input.context.messages, place_of(input.context.tree, input.object.node), "missing-key",
-            fmt::format("object '{}' needs a material", escape_text(input.id)));
-  return false;
-}
-
-void add_part(const ShapeInput& input, std::string_view part, std::span<const DVec3> corners) {
-  add_polygon(input.scene.outlines, input.object_row, input.id + std::string(part), input.own.material,
-              input.node, corners);
-}
-
-bool read_corners(const Context& context, uint32_t node, std::string_view what, std::vector<DVec3>& corners) {
-  const Tree& tree = context.tree;
-  if (tree.nodes[node].kind != NodeKind::kList) {
-    add_error(context.messages, place_of(tree, node), "expected-list",
-              fmt::format("expected a list of corners for {}, got {}", what, describe(tree, node)));
-    return false;
-  }
-  const uint32_t count = tree.nodes[node].count;
-  if (count < 3) {
-    add_error(context.messages, place_of(tree, node), "too-few-vertices",
-              fmt::format("{} needs at least 3 corners, got {}", what, count));
-    return false;
-  }
-  const Limits& limits = context.messages.limits;
-  if (count > limits.corners) {
-    add_error(context.messages, place_of(tree, node), "too-many-polygons",
-              fmt::format("{} has {} corners, more than the limit of {}", what, count,
-                          limit_text(limits, &Limits::corners)));
-    return false;
-  }
-  bool good = true;
-  corners.clear();
-  for (uint32_t child = tree.nodes[node].first; child != kNone; child = tree.nodes[child].next) {
-    double number[3] = {0, 0, 0};
-    good = read_three(context, child, "expected-vec3", number) && good;
-    corners.emplace_back(number[0], number[1], number[2]);
-  }
-  return good;
-}
-
-void make_axes(DVec3 normal, DVec3& width, DVec3& height) {
-  const bool along_x = std::abs(normal.x) > 0.999;
-  const DVec3 wish = along_x ? DVec3(0, 0, normal.x > 0 ? -1 : 1) : DVec3(1, 0, 0);
-  width = glm::normalize(wish - normal * glm::dot(wish, normal));
-  height = glm::cross(normal, width);
-}
-
-bool read_direction(const Context& context, const Value& value, DVec3& direction) {
-  const DVec3 given = vec3_of(value);
-  const double largest_part = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
-  if (largest_part == 0) {
-    add_error(context.messages, place_of(context.tree, value.node), "zero-axis",
-              "this direction has no length");
-    return false;
-  }
-  direction = glm::normalize(given / largest_part);
-  return true;
+  return rows;
 }
 
 }  // namespace patchlight

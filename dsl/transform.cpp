@@ -1,8 +1,6 @@
 // Moving, turning and stretching of polygons.
 #include "transform.h"
 
-#include "shapes.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

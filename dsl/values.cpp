@@ -2,6 +2,7 @@
 #include "values.h"
 
 #include "expression.h"
+#include "text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 
 namespace patchlight {
 namespace {
@@ -47,7 +49,7 @@ bool check_rules(const Context& context, const MapValues& map) {
     if (rule.kind == RuleKind::kNeeds && any && !has_all(map, rule.others)) place = first;
     if (rule.kind == RuleKind::kOneOf && !any) place = map.node;
     if (place == kNone) continue;
-    report(context, place, rule.slug, std::string(rule.text));
+    report(context, place, rule.slug, fmt::format(fmt::runtime(rule.text), map.table->name));
     return false;
   }
   return true;
@@ -212,14 +214,6 @@ void set_fallback(const KeyRow& row, Value& value) {
 
 }  // namespace
 
-bool is_name(std::string_view text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  if (text.empty() || !letter(text[0])) return false;
-  for (const char c : text)
-    if (!letter(c) && !(c >= '0' && c <= '9') && c != '.' && c != '-') return false;
-  return true;
-}
-
 bool read_text(const Context& context, uint32_t node, std::string& text) {
   if (report_null(context, node, "a text")) return false;
   if (context.tree.nodes[node].kind != NodeKind::kScalar) {
@@ -347,6 +341,18 @@ const KeyRow& row_of(const KeyTable& table, std::string_view key) {
   const KeyRow* row = find_row(table, key);
   assert(row != nullptr);
   return *row;
+}
+
+bool read_direction(const Context& context, const Value& value, DVec3& direction) {
+  const DVec3 given = vec3_of(value);
+  const double largest_part = std::max({std::abs(given.x), std::abs(given.y), std::abs(given.z)});
+  if (largest_part == 0) {
+    add_error(context.messages, place_of(context.tree, value.node), "zero-axis",
+              "this direction has no length");
+    return false;
+  }
+  direction = glm::normalize(given / largest_part);
+  return true;
 }
 
 std::vector<std::string> split_words(std::string_view words) {

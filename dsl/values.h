@@ -56,7 +56,7 @@ bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value&
 // control-character.
 bool read_text(const Context& context, uint32_t node, std::string& text);
 
-// True for what matches [A-Za-z_][A-Za-z0-9_.-]*.
-bool is_name(std::string_view text);
+// The unit vector of a key's value; false after zero-axis.
+bool read_direction(const Context& context, const Value& value, DVec3& direction);
 
 }  // namespace patchlight

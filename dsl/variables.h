@@ -1,7 +1,7 @@
-// The variables of a scene: `let`, what the command line defines, and the indices of repeats.
+// The variables of a scene: their values, and what a name means at a place of it.
 #pragma once
 
-#include "number.h"
+#include "context.h"
 
 #include <string>
 #include <string_view>
@@ -10,12 +10,12 @@
 
 namespace patchlight {
 
-// A variable is worked out when it is first asked for, so that `let` may be in any order.
+// All variables of all files. Their values are worked out before anything else is read (let.h).
 struct VariableTable {
-  enum class State : uint8_t { kWaiting, kBusy, kKnown, kFailed };
-  std::vector<std::string> name;    // with the prefix of its include
-  std::vector<std::string> prefix;  // of the file that it stands in
-  std::vector<uint32_t> node;       // its value in the tree
+  enum class State : uint8_t { kWaiting, kKnown, kFailed };  // failed: what is wrong was told
+  std::vector<std::string> name;                             // with the prefix of its include
+  std::vector<std::string> prefix;                           // of the file that it stands in
+  std::vector<uint32_t> node;                                // its value in the tree
   std::vector<double> value;
   std::vector<std::string> definition;  // "-D w=8" where the command line gave the value, else empty
   std::vector<State> state;
@@ -23,15 +23,9 @@ struct VariableTable {
   size_t size() const { return name.size(); }
 };
 
-// Adds the map `let`. Errors: bad-name, duplicate-id (defined by an include too).
-void read_let(const Context& context, uint32_t node, VariableTable& variables);
-
-// Gives variables their values from the command line ("w=8"). Errors, without a place: usage,
-// undefined-variable, non-finite.
-void define_variables(const Context& context, const std::vector<std::string>& definitions);
-
-// Works out all variables, so that mistakes in unused ones are told too.
-void check_variables(const Context& context);
+// The row of a variable of the files whose names begin with `prefix`, else of one of the scene; kNone where
+// there is none.
+uint32_t find_row(const VariableTable& variables, const std::string& prefix, std::string_view name);
 
 enum class Lookup : uint8_t { kFound, kUnknown, kFailed };  // failed: already reported
 

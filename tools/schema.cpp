@@ -1,6 +1,7 @@
 // The language's tables of keys to a JSON Schema (draft-07): one definition a table, one property a row.
 #include "schema.h"
 
+#include "dsl/object_keys.h"
 #include "dsl/shapes.h"
 #include "dsl/values.h"
 #include "json.h"

@@ -1,7 +1,7 @@
 // Polygons become faces that cover them, share whole edges, and are well shaped.
 #include "dsl/cut.h"
 
-#include "dsl/flat_polygon.h"
+#include "dsl/flatten.h"
 #include "support.h"
 
 #include <doctest/doctest.h>

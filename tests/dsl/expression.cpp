@@ -1,7 +1,8 @@
 // Expressions: their grammar and their values.
 #include "dsl/expression.h"
 
-#include "dsl/variables.h"
+#include "dsl/let.h"
+#include "dsl/number.h"
 #include "support.h"
 
 #include <doctest/doctest.h>
@@ -24,6 +25,7 @@ double value_of_text(const std::string& expression) {
   VariableTable variables;
   const Context context{tree, messages, &variables};
   read_let(context, child_of(tree, root, 1), variables);
+  work_out_variables(context, variables);
   double value = 0;
   return read_number(context, child_of(tree, root, 3), value) ? value
                                                               : std::numeric_limits<double>::quiet_NaN();

@@ -1,7 +1,9 @@
 // The tables of the language are complete enough to make a schema and a reference from.
 #include "dsl/language.h"
 
+#include "dsl/diagnostics.h"
 #include "dsl/limits.h"
+#include "dsl/object_keys.h"
 #include "dsl/shapes.h"
 #include "dsl/values.h"
 #include "tests/folder.h"
@@ -108,6 +110,14 @@ TEST_CASE("the reference names every limit, with its number") {
   for (const LimitRow& row : kLimitRows) {
     CAPTURE(row.flag);
     CHECK(section.find("`" + std::string(row.flag) + "`") != std::string::npos);
+  }
+}
+
+TEST_CASE("the reference names every slug that has an exit code of its own") {
+  const std::string section = section_of(read_reference(), "## Messages");
+  for (const SlugExit& row : slug_exits()) {
+    CAPTURE(row.slug);
+    CHECK(section.find("`" + std::string(row.slug) + "`") != std::string::npos);
   }
 }
 

@@ -1,6 +1,5 @@
 // Meshes: OBJ faces to polygons, their materials, and what is said of files that are wrong.
-#include "dsl/mesh.h"
-
+#include "dsl/mesh_files.h"
 #include "support.h"
 #include "tests/folder.h"
 
@@ -8,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace patchlight::test {
@@ -65,6 +65,23 @@ void check_message(const std::vector<Diagnostic>& list, std::string_view slug, s
   CHECK(found->column == column);
   INFO(found->message);
   CHECK(found->message.find(part) != std::string::npos);
+}
+
+TEST_CASE("a file's suffix tells its format, in upper or lower case; others are taken for the first one") {
+  const std::span<const MeshFormat> formats = mesh_formats();
+  for (const MeshFormat& format : formats) {
+    const std::string suffix(format.suffix);
+    CAPTURE(suffix);
+    std::string upper = suffix;
+    for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    CHECK(suffix != upper);
+    CHECK(&format_of_mesh("models/chair" + suffix) == &format);
+    CHECK(&format_of_mesh("CHAIR" + upper) == &format);
+  }
+  for (const char* name : {"chair.txt", "chair", "obj", ""}) {
+    CAPTURE(name);
+    CHECK(&format_of_mesh(name) == &formats[0]);
+  }
 }
 
 TEST_CASE("each face of a mesh is a polygon ID.0, ID.1 ..., its lit side as its corners run") {

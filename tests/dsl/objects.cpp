@@ -1,7 +1,9 @@
 // The list `objects` to outlines, before anything is checked or cut: ids, corners, materials.
 #include "dsl/objects.h"
 
+#include "dsl/object_keys.h"
 #include "dsl/shapes.h"
+#include "dsl/text.h"
 #include "dsl/variables.h"
 
 #include <doctest/doctest.h>

@@ -21,6 +21,7 @@ set(DSL_TEST_SOURCES
   dsl/shape_round.cpp
   dsl/source.cpp
   dsl/suspicious.cpp
+  dsl/text.cpp
   dsl/transform.cpp
   dsl/tree.cpp
   dsl/values.cpp

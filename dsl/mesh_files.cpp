@@ -1,7 +1,8 @@
-// The OBJ files of a scene, and which of their faces are of use.
-#include "mesh.h"
+// The mesh files of a scene, and which of their faces are of use.
+#include "mesh_files.h"
 
 #include "cut.h"
+#include "flatten.h"
 #include "limits.h"
 #include "scene_path.h"
 #include "values.h"
@@ -25,30 +26,30 @@ struct Found {
 // Empties faces without area and counts the others by material. What is odd about faces is told in one
 // warning a kind.
 void check_faces(Messages& messages, MeshFile& mesh) {
-  ObjMesh& obj = mesh.obj;
-  mesh.face_count.assign(obj.material.size() + 1, 0);
-  mesh.material_row.assign(obj.material.size() + 1, kNone);
+  MeshTable& table = mesh.table;
+  mesh.face_count.assign(table.material.size() + 1, 0);
+  mesh.material_row.assign(table.material.size() + 1, kNone);
   Found thin, bent, crossing;
   std::vector<DVec3> corners;
   FlatPolygon flat;
   CutFaces cut;
   uint32_t first = 0, written = 0;
-  for (size_t f = 0; f < obj.face_count(); ++f) {
-    const uint32_t last = obj.face_first[f + 1];
+  for (size_t f = 0; f < table.face_count(); ++f) {
+    const uint32_t last = table.face_first[f + 1];
     corners.clear();
-    for (uint32_t k = first; k < last; ++k) corners.push_back(obj.position[obj.corner[k]]);
+    for (uint32_t k = first; k < last; ++k) corners.push_back(table.position[table.corner[k]]);
     const MeshFace kind = flatten_mesh_face(corners, flat);
     if (kind == MeshFace::kNoArea) {
-      thin.add(obj.face_line[f]);
+      thin.add(table.face_line[f]);
     } else {
-      for (uint32_t k = first; k < last; ++k) obj.corner[written++] = obj.corner[k];
-      ++mesh.face_count[obj.face_material[f] == kNone ? obj.material.size() : obj.face_material[f]];
-      if (flat.off_plane > kNonPlanarMax) bent.add(obj.face_line[f]);
+      for (uint32_t k = first; k < last; ++k) table.corner[written++] = table.corner[k];
+      ++mesh.face_count[table.face_material[f] == kNone ? table.material.size() : table.face_material[f]];
+      if (flat.off_plane > kNonPlanarMax) bent.add(table.face_line[f]);
       // A hole that a seam joins to the outline touches it, and is cut well.
-      if (kind == MeshFace::kCrossing && !cut_polygon(flat, false, cut)) crossing.add(obj.face_line[f]);
+      if (kind == MeshFace::kCrossing && !cut_polygon(flat, false, cut)) crossing.add(table.face_line[f]);
     }
     first = last;
-    obj.face_first[f + 1] = written;
+    table.face_first[f + 1] = written;
   }
   const auto warn = [&](const Found& found, std::string_view slug, std::string_view what) {
     if (found.count > 0)
@@ -57,7 +58,7 @@ void check_faces(Messages& messages, MeshFile& mesh) {
   warn(thin, "zero-area", "without area: left out");
   warn(bent, "non-planar", "with corners off one plane by more than 2 % of their size: cut into triangles");
   warn(crossing, "self-intersecting", "with an outline that crosses itself: cut as well as it can be");
-  if (thin.count == obj.face_count())
+  if (thin.count == table.face_count())
     add_error(messages, {mesh.file, thin.first_line, 1}, "mesh-invalid", "no face of this file has an area");
 }
 
@@ -73,7 +74,8 @@ uint32_t load_mesh(const Context& context, uint32_t node, MeshFiles& meshes) {
   if (!is_new) return row->second;
   MeshFile& mesh = meshes.files.emplace_back();
   mesh.file = add_scene_file(messages, place, path, &Limits::mesh_bytes, messages.mesh_bytes);
-  if (mesh.file == kNone || !read_obj(messages, mesh.file, mesh.obj)) return row->second;
+  mesh.format = &format_of_mesh(name);
+  if (mesh.file == kNone || !mesh.format->read(messages, mesh.file, mesh.table)) return row->second;
   const size_t errors_before = messages.error_count;
   check_faces(messages, mesh);
   mesh.good = messages.error_count == errors_before;

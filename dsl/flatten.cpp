@@ -1,10 +1,10 @@
 // An outline checked and laid flat. All tolerances are shares of the polygon's own size.
-#include "flat_polygon.h"
+#include "flatten.h"
 
 #include "limits.h"
-#include "number.h"
 #include "plane_check.h"
 #include "ring_check.h"
+#include "text.h"
 
 #include <fmt/format.h>
 

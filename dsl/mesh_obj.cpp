@@ -1,7 +1,6 @@
-// Wavefront OBJ: text to tables (Wavefront: Advanced Visualizer, appendix B1, Object Files).
-#include "obj.h"
-
+// Wavefront OBJ, strictly: text to tables (Wavefront: Advanced Visualizer, appendix B1, Object Files).
 #include "limits.h"
+#include "mesh_formats.h"
 #include "statements.h"
 
 #include <fmt/format.h>
@@ -23,7 +22,7 @@ constexpr std::array<std::string_view, 7> kCurved = {"cstype", "curv", "curv2", 
 struct Reader {
   Messages& messages;
   StatementReader statements;
-  ObjMesh& mesh;
+  MeshTable& mesh;
   std::pair<const std::string, uint32_t>* material = nullptr;  // that usemtl chose last: its name and row
   uint32_t material_line = 0;
   bool reaches_ahead = false;  // some index names a vertex that had not come yet
@@ -77,7 +76,7 @@ uint32_t row_of_material(Reader& reader) {
 }
 
 void read_face(Reader& reader) {
-  ObjMesh& mesh = reader.mesh;
+  MeshTable& mesh = reader.mesh;
   const auto vertices = static_cast<int64_t>(mesh.position.size());
   const size_t first = mesh.corner.size();
   bool good = true;
@@ -140,7 +139,7 @@ void read_statement(Reader& reader, std::string_view keyword) {
 
 // Indices of vertices that came later than the face, or never.
 void check_ahead(Reader& reader) {
-  const ObjMesh& mesh = reader.mesh;
+  const MeshTable& mesh = reader.mesh;
   for (size_t f = 0; f < mesh.face_count(); ++f)
     for (uint32_t k = mesh.face_first[f]; k < mesh.face_first[f + 1]; ++k) {
       if (mesh.corner[k] < mesh.position.size()) continue;
@@ -153,7 +152,10 @@ void check_ahead(Reader& reader) {
 
 }  // namespace
 
-bool read_obj(Messages& messages, uint32_t file, ObjMesh& mesh) {
+// Reads v, f, usemtl and mtllib. Indices are checked; texture coordinates, normals, groups, smoothing, lines
+// and points are passed over. False after errors: mesh-invalid, non-finite, number-out-of-range,
+// coordinate-too-large, too-many-polygons.
+bool read_obj(Messages& messages, uint32_t file, MeshTable& mesh) {
   Reader reader{messages, read_statements(messages, file), mesh};
   const size_t errors_before = messages.error_count;
   const auto errors = [&] { return messages.error_count - errors_before; };
