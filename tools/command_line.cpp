@@ -4,8 +4,8 @@
 #include "command_line.h"
 
 #include "completion.h"
-#include "dsl/diagnostics.h"
-#include "dsl/limits.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/report/limits.h"
 #include "engine/solvers.h"
 #include "exporters.h"
 #include "flag_values.h"

@@ -1,7 +1,7 @@
 // What a scene expects beside what a solution shows.
 #include "expectations.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // What a scene expects beside what a solution shows.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/solve.h"
 
 #include <string>

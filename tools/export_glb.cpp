@@ -4,7 +4,7 @@
 // own JSON, image code and a second copy of the mesh for these hundred lines. Colours are light that is there
 // already: KHR_materials_unlit shows COLOR_0 as it is.
 #include "bytes.h"
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "exporters.h"
 #include "exposure.h"
 #include "json.h"

@@ -1,7 +1,7 @@
 // The formats that render writes: one row a format, one file tools/export_<format>.cpp a row.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/solve.h"
 #include "files.h"
 #include "pass_record.h"

@@ -1,7 +1,7 @@
 // Bytes -> whole files, by the system's own calls: the C++ streams do not say why a write failed.
 #include "files.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

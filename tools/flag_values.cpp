@@ -1,8 +1,8 @@
 // Values of flags, from words to numbers and choices.
 #include "flag_values.h"
 
-#include "dsl/diagnostics.h"
-#include "dsl/limits.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/report/limits.h"
 #include "exporters.h"
 #include "options.h"
 

@@ -1,8 +1,8 @@
 // A solution to signs of its health: sums of rows, reciprocity, cracks that light leaves through.
 #pragma once
 
-#include "dsl/diagnostics.h"
-#include "dsl/scene.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/scene/scene.h"
 #include "engine/leaks.h"
 
 #include <vector>

@@ -2,7 +2,7 @@
 // page.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/solve.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // A solution to what each object of its scene gives and takes: net heat flow, for heat.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/solve.h"
 
 #include <vector>

@@ -1,7 +1,7 @@
 // What the user asked for on the command line, before the scene is known. Empty optionals: the scene decides.
 #pragma once
 
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "look.h"
 
 #include <array>

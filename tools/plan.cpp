@@ -2,8 +2,8 @@
 #include "plan.h"
 
 #include "animation.h"
-#include "dsl/diagnostics.h"
-#include "dsl/limits.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/report/limits.h"
 #include "engine/film.h"
 #include "engine/forecast.h"
 #include "engine/parallel.h"

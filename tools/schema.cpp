@@ -1,9 +1,9 @@
 // The language's tables of keys to a JSON Schema (draft-07): one definition a table, one property a row.
 #include "schema.h"
 
-#include "dsl/object_keys.h"
-#include "dsl/shapes.h"
-#include "dsl/values.h"
+#include "dsl/language/values.h"
+#include "dsl/shapes/object_keys.h"
+#include "dsl/shapes/shapes.h"
 #include "json.h"
 
 #include <cmath>

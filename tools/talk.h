@@ -1,7 +1,7 @@
 // What the program says on standard error: messages, progress, the summary.
 #pragma once
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "options.h"
 
 #include <chrono>

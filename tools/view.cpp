@@ -1,7 +1,7 @@
 // The verb view: solve as render does, then look out from a patch: all directions before it in a circle.
 #include "view.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "engine/film.h"
 #include "engine/parallel.h"
 #include "engine/sampling.h"

@@ -1,7 +1,7 @@
 // The verb view: a scene -> what a patch sees.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "options.h"
 #include "talk.h"
 

@@ -1,9 +1,9 @@
 // Fuzz target: any bytes as an expression, with a few variables. It has a finite value, or an error in its
 // text.
-#include "dsl/expression.h"
+#include "dsl/language/expression.h"
 
-#include "dsl/let.h"
-#include "dsl/number.h"
+#include "dsl/language/let.h"
+#include "dsl/language/number.h"
 #include "engine/vector.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Heat: the net flows of textbooks (Howell, Menguc, Daun, Siegel: Thermal Radiation Heat Transfer).
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "tests/scenes.h"
 #include "tools/object_power.h"
 

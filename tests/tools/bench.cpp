@@ -1,5 +1,5 @@
 // The parts of the benchmark that do not measure: its command line, its figures, its child processes.
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tests/scenes.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"

@@ -1,7 +1,7 @@
 // Words of the command line: what they mean, and what is said of mistakes.
 #include "tools/command_line.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Files that are whole or absent.
 #include "tools/files.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "tests/folder.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 #include "tools/health.h"
 
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

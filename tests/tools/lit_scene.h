@@ -2,7 +2,7 @@
 // shadow with many hanging corners, and two facets of one smooth surface.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "tests/scenes.h"
 #include "tools/pass_record.h"
 

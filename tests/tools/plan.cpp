@@ -1,7 +1,7 @@
 // What a run will do, from scene and flags.
 #include "tools/plan.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // The schema is shipped as the program makes it, and judges scenes as the loader does.
 #include "tools/schema.h"
 
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "tests/folder.h"
 #include "tools/json.h"
 

@@ -1,8 +1,8 @@
 // Places on polygons that patches look out from. Whole runs are in program/pictures.cpp.
 #include "tools/view.h"
 
-#include "dsl/diagnostics.h"
-#include "dsl/load.h"
+#include "dsl/report/diagnostics.h"
+#include "dsl/scene/load.h"
 
 #include <doctest/doctest.h>
 

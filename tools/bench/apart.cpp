@@ -1,7 +1,7 @@
 // A function to a child process, its JSON back through a pipe.
 #include "tools/bench/apart.h"
 
-#include "dsl/diagnostics.h"
+#include "dsl/report/diagnostics.h"
 #include "engine/parallel.h"
 
 #include <poll.h>

@@ -1,6 +1,6 @@
 // The kernels on a scene to rates. Rays are compared on the same rays: those of the engine's own kernels, on
 // tape.
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/direct.h"
 #include "engine/film.h"
 #include "engine/gather.h"

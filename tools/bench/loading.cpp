@@ -1,6 +1,6 @@
 // Large scenes to the time and memory that loading them takes, beside the YAML parser alone on the same text.
-#include "dsl/bare_pass.h"
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
+#include "dsl/yaml/bare_pass.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"

@@ -1,5 +1,5 @@
 // Scenes to whole runs of the program, and to the share of such a run that Embree needs.
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/parallel.h"
 #include "engine/ray_tape.h"
 #include "tools/bench/apart.h"

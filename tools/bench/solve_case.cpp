@@ -1,7 +1,7 @@
 // A scene and a size to a solved mesh, its times and its error.
 #include "tools/bench/solve_case.h"
 
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "tools/expectations.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Whole solves for the benchmark, and the clocks around them.
 #pragma once
 
-#include "dsl/scene.h"
+#include "dsl/scene/scene.h"
 #include "engine/solve.h"
 
 #include <optional>

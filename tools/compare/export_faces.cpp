@@ -1,6 +1,6 @@
 // A scene's faces and first camera as JSON on standard output, for programs that render the same scene by other means.
 // Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1; two_sided faces stand for both sides.
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 #include "tools/json.h"
 
 #include <fmt/format.h>
