@@ -1,7 +1,7 @@
 // What the tests of the loader share: scenes to build on, and short ways to load and to ask.
 #pragma once
 
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 // Fuzz target: any bytes as a scene. It loads, or is refused with a message; nothing else.
-#include "dsl/load.h"
+#include "dsl/scene/load.h"
 
 #include <cmath>
 #include <cstdint>
