@@ -1,7 +1,7 @@
 // The materials of a scene by name.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "number.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 // Wavefront MTL: the diffuse reflectances of an OBJ file's materials.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "messages.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 // Wavefront OBJ: text to tables, strictly. Faces keep their corners: nothing is cut here.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "messages.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 // Values of the command line put into the tree of a scene.
 #include "overrides.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "source.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Files that a scene names: found only below the scene's own folder, and never on a network.
 #include "scene_path.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "source.h"
 
 #include <fmt/format.h>

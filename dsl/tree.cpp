@@ -2,7 +2,7 @@
 // places.
 #include "tree.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "limits.h"
 #include "yaml_errors.h"
 #include "yaml_stream.h"

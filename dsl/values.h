@@ -2,7 +2,7 @@
 // here.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "language.h"
 #include "number.h"
 

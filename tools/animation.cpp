@@ -1,7 +1,7 @@
 // Display-linear pictures -> frames of an animation.
 #include "animation.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "lettering.h"
 #include "srgb.h"
 

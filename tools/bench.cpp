@@ -3,8 +3,8 @@
 
 #include "bench/figure.h"
 #include "bench/sections.h"
-#include "engine/parallel.h"
-#include "engine/tracer.h"
+#include "engine/base/parallel.h"
+#include "engine/trace/tracer.h"
 #include "files.h"
 #include "memory.h"
 #include "plan.h"

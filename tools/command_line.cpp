@@ -6,7 +6,7 @@
 #include "completion.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "exporters.h"
 #include "flag_values.h"
 #include "help.h"

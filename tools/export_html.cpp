@@ -4,7 +4,7 @@
 // columns become blocks of bytes that pack well, then zlib, then base64 between tags.
 #include "bytes.h"
 #include "dsl/diagnostics.h"
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "exporters.h"
 #include "json.h"
 #include "lit_mesh.h"

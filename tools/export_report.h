@@ -1,7 +1,7 @@
 // What a run has to tell afterwards, for S-report.json and the summary.
 #pragma once
 
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "health.h"
 #include "object_power.h"
 #include "plan.h"

@@ -2,7 +2,7 @@
 // written as they are made.
 #include "factors.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "files.h"
 #include "json.h"
 #include "memory.h"

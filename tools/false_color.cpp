@@ -1,7 +1,7 @@
 // Numbers -> colours of a map, and its legend.
 #include "false_color.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "lettering.h"
 #include "srgb.h"
 

@@ -1,7 +1,7 @@
 // Numbers -> colours, and the legend that says which is which.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 #include "look.h"
 #include "picture.h"
 

@@ -3,7 +3,7 @@
 
 #include "dsl/diagnostics.h"
 #include "dsl/scene.h"
-#include "engine/leaks.h"
+#include "engine/solve/leaks.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // What a run keeps of each pass for a format that shows all of them: a word a vertex and a word an element.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 
 #include <cstdint>
 #include <span>

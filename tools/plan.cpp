@@ -4,10 +4,10 @@
 #include "animation.h"
 #include "dsl/diagnostics.h"
 #include "dsl/limits.h"
-#include "engine/film.h"
-#include "engine/forecast.h"
-#include "engine/parallel.h"
-#include "engine/sizes.h"
+#include "engine/film/film.h"
+#include "engine/solve/forecast.h"
+#include "engine/base/parallel.h"
+#include "engine/solve/sizes.h"
 #include "memory.h"
 
 #include <fmt/format.h>

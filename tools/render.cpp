@@ -2,7 +2,7 @@
 // asked picture is on its way to its file as soon as its pass is done.
 #include "render.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "lit_mesh.h"
 #include "pictures.h"
 #include "series.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "animation.h"
-#include "engine/film.h"
-#include "engine/stopwatch.h"
+#include "engine/film/film.h"
+#include "engine/base/stopwatch.h"
 #include "export_report.h"
 #include "false_color.h"
 #include "files.h"

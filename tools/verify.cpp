@@ -1,7 +1,7 @@
 // The verb verify: solve as render does, but compare means in place of taking pictures.
 #include "verify.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "expectations.h"
 #include "files.h"
 #include "plan.h"

@@ -2,9 +2,9 @@
 #include "view.h"
 
 #include "dsl/diagnostics.h"
-#include "engine/film.h"
-#include "engine/parallel.h"
-#include "engine/sampling.h"
+#include "engine/film/film.h"
+#include "engine/base/parallel.h"
+#include "engine/base/sampling.h"
 #include "exporters.h"
 #include "exposure.h"
 #include "files.h"

@@ -2,7 +2,7 @@
 #include "dsl/tree.h"
 
 #include "dsl/limits.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

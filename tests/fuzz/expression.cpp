@@ -2,7 +2,7 @@
 // text.
 #include "dsl/expression.h"
 #include "dsl/variables.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Leaves to a mesh without cracks.
 #include "tools/lit_mesh.h"
 
-#include "engine/face_links.h"
+#include "engine/mesh/face_links.h"
 #include "lit_scene.h"
 
 #include <doctest/doctest.h>

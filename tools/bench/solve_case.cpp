@@ -2,7 +2,7 @@
 #include "tools/bench/solve_case.h"
 
 #include "dsl/load.h"
-#include "engine/sizes.h"
+#include "engine/solve/sizes.h"
 #include "tools/expectations.h"
 
 #include <fmt/format.h>
