@@ -1,7 +1,7 @@
 // The table of projections.
 #include "projections.h"
 
-#include "lens.h"
+#include "engine/film/lens.h"
 
 #include <cmath>
 

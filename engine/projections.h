@@ -1,7 +1,7 @@
 // How all directions before an eye are laid out on a picture: one row a projection.
 #pragma once
 
-#include "vector.h"
+#include "engine/base/vector.h"
 
 #include <span>
 #include <string_view>

@@ -6,7 +6,7 @@
 // Emission and radiosity are W/m2 (exitance: radiance times pi), reflectance is 0..1, all of them linear RGB.
 #pragma once
 
-#include "vector.h"
+#include "engine/base/vector.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Form factors of polygon pairs with known answers: what all tests of form factors are measured by.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 // share.
 #pragma once
 
-#include "engine/quadtree.h"
-#include "engine/sampling.h"
-#include "engine/solve.h"
+#include "engine/mesh/quadtree.h"
+#include "engine/base/sampling.h"
+#include "engine/solve/solve.h"
 
 #include <array>
 #include <functional>

@@ -4,7 +4,7 @@
 #include "dsl/language/expression.h"
 #include "dsl/language/number.h"
 #include "dsl/report/text.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 

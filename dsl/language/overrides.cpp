@@ -2,7 +2,7 @@
 #include "dsl/language/overrides.h"
 
 #include "dsl/yaml/source.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 

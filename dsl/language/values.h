@@ -4,7 +4,7 @@
 
 #include "dsl/language/language.h"
 #include "dsl/language/number.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <array>
 #include <string>

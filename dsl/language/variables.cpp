@@ -1,7 +1,7 @@
 // The variables of a scene.
 #include "dsl/language/variables.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dsl/language/number.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <string>
 #include <string_view>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dsl/report/messages.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <string>
 #include <unordered_map>

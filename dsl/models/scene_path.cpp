@@ -2,7 +2,7 @@
 #include "dsl/models/scene_path.h"
 
 #include "dsl/yaml/source.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 

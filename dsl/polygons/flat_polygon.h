@@ -1,7 +1,7 @@
 // A polygon on its own plane: what the checks and the cutters work on.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // The polygons of a scene as corners, in file units, before they are checked and cut.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cstdint>
 #include <span>

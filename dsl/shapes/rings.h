@@ -1,7 +1,7 @@
 // Corners on circles, shared by the round shapes.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cmath>
 #include <numbers>

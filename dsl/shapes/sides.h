@@ -1,7 +1,7 @@
 // The six sides of boxes and rooms: their names and corners.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "dsl/report/limits.h"
 #include "dsl/yaml/yaml_errors.h"
 #include "dsl/yaml/yaml_stream.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>

@@ -4,7 +4,7 @@
 
 #include "dsl/language/let.h"
 #include "dsl/language/number.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Passes against other ways to the same answer: a dense solution, symmetry, other seeds, other threads, other
 // places.
-#include "engine/forecast.h"
-#include "engine/parallel.h"
-#include "engine/sizes.h"
+#include "engine/solve/forecast.h"
+#include "engine/base/parallel.h"
+#include "engine/solve/sizes.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Shadow edges: where they lie, that the mesh follows them, and sunlight through a window.
-#include "engine/lambert.h"
+#include "engine/light/lambert.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

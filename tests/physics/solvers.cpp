@@ -1,8 +1,8 @@
 // The three solvers against each other and against closed forms: they share a mesh, and little else.
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 
-#include "engine/polygon_factors.h"
-#include "engine/solution.h"
+#include "engine/factors/polygon_factors.h"
+#include "engine/solve/solution.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

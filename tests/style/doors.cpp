@@ -46,10 +46,10 @@ TEST_CASE("each foreign library has one door") {
     std::vector<std::string> files;  // beginnings of the paths that may include them
   };
   const std::vector<Door> doors = {
-      {"^(tbb|oneapi)/", {"engine/parallel."}},
-      {"^embree", {"engine/tracer."}},
-      {"^glm/", {"engine/vector.h"}},
-      {"^Eigen/", {"engine/linear_system.cpp"}},
+      {"^(tbb|oneapi)/", {"engine/base/parallel."}},
+      {"^embree", {"engine/trace/tracer."}},
+      {"^glm/", {"engine/base/vector.h"}},
+      {"^Eigen/", {"engine/base/linear_system.cpp"}},
       {"^yaml-cpp/", {"dsl/yaml/"}},
       {"^stb_image", {"tools/image/image_writer.cpp"}},
       {"^stb_truetype", {"tools/image/lettering.cpp"}},

@@ -1,7 +1,7 @@
 // Numbers as people read them, the same in every locale.
 #pragma once
 
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 
 #include <cstdint>
 #include <string>

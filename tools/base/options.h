@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dsl/scene/load.h"
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "tools/base/look.h"
 
 #include <any>

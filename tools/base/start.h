@@ -1,7 +1,7 @@
 // What every verb that solves does first.
 #pragma once
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/base/options.h"
 #include "tools/base/talk.h"
 

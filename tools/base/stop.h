@@ -1,7 +1,7 @@
 // SIGINT and SIGTERM -> a run that stops between two rows of work and keeps what is finished.
 #pragma once
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <signal.h>
 

@@ -2,9 +2,9 @@
 // file has to include them.
 #include "tools/base/version.h"
 
-#include "engine/parallel.h"
-#include "engine/tracer.h"
-#include "engine/vector.h"
+#include "engine/base/parallel.h"
+#include "engine/trace/tracer.h"
+#include "engine/base/vector.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "tools/bench/apart.h"
 
 #include "dsl/report/diagnostics.h"
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <poll.h>
 #include <sys/prctl.h>

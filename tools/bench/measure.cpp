@@ -1,7 +1,7 @@
 // Kernels to rates, by Google Benchmark: it finds how often to call a kernel so that the clock can tell.
 #include "tools/bench/measure.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // Scenes to whole runs of the program, and to the share of such a run that Embree needs.
 #include "dsl/scene/scene.h"
-#include "engine/parallel.h"
-#include "engine/ray_tape.h"
+#include "engine/base/parallel.h"
+#include "engine/trace/ray_tape.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"

@@ -2,7 +2,7 @@
 #include "tools/bench/solve_case.h"
 
 #include "dsl/scene/load.h"
-#include "engine/sizes.h"
+#include "engine/solve/sizes.h"
 #include "tools/render/expectations.h"
 
 #include <fmt/format.h>

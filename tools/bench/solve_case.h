@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dsl/scene/scene.h"
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 
 #include <optional>
 #include <string>

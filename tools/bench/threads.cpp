@@ -1,5 +1,5 @@
 // One large solve on more and more threads to speedups, and a look at whether the bits stay the same.
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/sections.h"

@@ -1,5 +1,5 @@
 // Elements -> S-patches.csv, a row each, with the shortest decimals that read back as the same float.
-#include "engine/cell.h"
+#include "engine/mesh/cell.h"
 #include "tools/base/format.h"
 #include "tools/export/exporters.h"
 

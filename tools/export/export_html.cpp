@@ -3,7 +3,7 @@
 // page.html holds the viewer and is built ahead (tools/page/README.md, which also describes the data). Here
 // columns become blocks of bytes that pack well, then zlib, then base64 between tags.
 #include "dsl/report/diagnostics.h"
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/base/bytes.h"
 #include "tools/base/json.h"
 #include "tools/base/version.h"

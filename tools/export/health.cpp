@@ -1,7 +1,7 @@
 // Rows of patches to sums and differences between polygons.
 #include "tools/export/health.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "dsl/report/diagnostics.h"
 #include "dsl/scene/scene.h"
-#include "engine/leaks.h"
+#include "engine/solve/leaks.h"
 
 #include <vector>
 

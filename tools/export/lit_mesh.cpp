@@ -4,8 +4,8 @@
 // Usable, 1991), so that any program may draw the triangles.
 #include "tools/export/lit_mesh.h"
 
-#include "engine/parallel.h"
-#include "engine/quadtree.h"
+#include "engine/base/parallel.h"
+#include "engine/mesh/quadtree.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,7 +1,7 @@
 // Radiosity after a pass -> words of 32 bits.
 #include "tools/export/pass_record.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <algorithm>
 #include <bit>

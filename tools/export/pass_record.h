@@ -1,7 +1,7 @@
 // What a run keeps of each pass for a format that shows all of them: a word a vertex and a word an element.
 #pragma once
 
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // What a run has to tell afterwards, for its files and the summary.
 #pragma once
 
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "tools/export/health.h"
 #include "tools/export/object_power.h"
 

@@ -1,7 +1,7 @@
 // Display-linear pictures -> frames of an animation.
 #include "tools/image/animation.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/image/lettering.h"
 #include "tools/image/srgb.h"
 

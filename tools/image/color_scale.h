@@ -1,7 +1,7 @@
 // Numbers -> colours, and the legend that says which is which.
 #pragma once
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/base/look.h"
 #include "tools/image/picture.h"
 

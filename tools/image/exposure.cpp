@@ -1,7 +1,7 @@
 // Forecast radiosity -> EV, and values -> what the display shows of them.
 #include "tools/image/exposure.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Radiosity -> how bright the pictures of a run are.
 #pragma once
 
-#include "engine/film.h"
-#include "engine/solve.h"
+#include "engine/film/film.h"
+#include "engine/solve/solve.h"
 #include "tools/image/srgb.h"
 #include "tools/image/tone.h"
 

@@ -1,7 +1,7 @@
 // What pictures may show in false colours: one row a kind.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 #include "tools/image/color_scale.h"
 #include "tools/image/light_parts.h"
 

@@ -1,7 +1,7 @@
 // The light after each pass -> the parts of it that pictures show.
 #include "tools/image/light_parts.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <cassert>
 

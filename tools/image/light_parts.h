@@ -1,7 +1,7 @@
 // The light after each pass -> the parts of it that pictures show.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 #include "tools/base/look.h"
 
 #include <span>

@@ -1,7 +1,7 @@
 // Pictures out of pictures: boxes filled, parts placed, sizes changed.
 #include "tools/image/picture.h"
 
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 
 #include <algorithm>
 #include <cassert>

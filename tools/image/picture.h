@@ -1,7 +1,7 @@
 // One colour a pixel, and what drawings need to do with pictures.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // How a run went -> drawings for pages and slides.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 
 #include <span>
 #include <string>

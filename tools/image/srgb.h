@@ -1,7 +1,7 @@
 // The transfer function of sRGB (IEC 61966-2-1): linear light 0..1 to what files hold, and back.
 #pragma once
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // Scene file and flags -> what this run will do, and whether it may.
 #pragma once
 
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "tools/base/options.h"
 #include "tools/export/exporters.h"
 

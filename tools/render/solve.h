@@ -1,7 +1,7 @@
 // The solve as every verb goes through it: rounds, then steps, with a line of progress each.
 #pragma once
 
-#include "engine/solve.h"
+#include "engine/solve/solve.h"
 #include "tools/base/talk.h"
 #include "tools/render/plan.h"
 

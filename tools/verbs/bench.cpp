@@ -1,6 +1,6 @@
 // The verb bench. Every section measures in child processes; this one only reads, prints and writes.
-#include "engine/parallel.h"
-#include "engine/tracer.h"
+#include "engine/base/parallel.h"
+#include "engine/trace/tracer.h"
 #include "tools/base/files.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"

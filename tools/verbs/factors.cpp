@@ -2,8 +2,8 @@
 // written as they are made.
 #include "tools/verbs/factors.h"
 
-#include "engine/parallel.h"
-#include "engine/stopwatch.h"
+#include "engine/base/parallel.h"
+#include "engine/base/stopwatch.h"
 #include "tools/base/files.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"

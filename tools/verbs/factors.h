@@ -1,7 +1,7 @@
 // The verb factors: a scene -> the form factors between its polygons, on standard output.
 #pragma once
 
-#include "engine/polygon_factors.h"
+#include "engine/factors/polygon_factors.h"
 #include "tools/base/options.h"
 #include "tools/base/talk.h"
 

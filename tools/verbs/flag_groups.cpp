@@ -2,7 +2,7 @@
 #include "tools/verbs/flag_groups.h"
 
 #include "dsl/report/limits.h"
-#include "engine/solvers.h"
+#include "engine/solve/solvers.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"
 #include "tools/image/tone.h"

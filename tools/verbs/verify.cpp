@@ -1,5 +1,5 @@
 // The verb verify: solve as render does, but compare means in place of taking pictures.
-#include "engine/parallel.h"
+#include "engine/base/parallel.h"
 #include "tools/base/files.h"
 #include "tools/base/format.h"
 #include "tools/base/start.h"

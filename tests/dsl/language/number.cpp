@@ -1,7 +1,7 @@
 // Scalars to numbers: what is read, and what is refused.
 #include "dsl/language/number.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Maps of the tree against tables of keys: types, ranges, defaults and rules, without a scene around them.
 #include "dsl/language/values.h"
 
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

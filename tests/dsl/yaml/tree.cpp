@@ -2,7 +2,7 @@
 #include "dsl/yaml/tree.h"
 
 #include "dsl/report/limits.h"
-#include "engine/vector.h"
+#include "engine/base/vector.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // The table of patches as text.
-#include "engine/cell.h"
+#include "engine/mesh/cell.h"
 #include "tests/folder.h"
 #include "tools/export/exporters.h"
 

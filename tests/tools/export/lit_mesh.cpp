@@ -1,7 +1,7 @@
 // Leaves to a mesh without cracks.
 #include "tools/export/lit_mesh.h"
 
-#include "engine/face_links.h"
+#include "engine/mesh/face_links.h"
 #include "tests/tools/export/lit_scene.h"
 
 #include <doctest/doctest.h>

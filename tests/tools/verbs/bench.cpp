@@ -1,6 +1,6 @@
 // The parts of the benchmark that do not measure: its command line, its figures, its child processes.
 #include "dsl/report/diagnostics.h"
-#include "engine/sizes.h"
+#include "engine/solve/sizes.h"
 #include "tests/scenes.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"

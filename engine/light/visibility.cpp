@@ -1,0 +1,192 @@
+// Pairs of points of an element and an emitter; Lambert's formula averaged over an element.
+#include "engine/light/visibility.h"
+
+#include "engine/mesh/cell_rays.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+namespace patchlight {
+namespace {
+
+// An element nearer to an emitter than this many of its edges takes its mean factor by Gauss's rule, not at
+// its centre.
+constexpr float kNearEmitter = 40;
+
+Vec2 stratified_sample(uint64_t key, uint32_t packet, const Strata& strata, uint32_t column, uint32_t row,
+                       uint32_t index) {
+  const Vec2 inside = make_jitter(key, packet * kPacketSize + index);
+  const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (index % 8)) & 15);
+  return (Vec2(static_cast<float>(column), static_cast<float>(row)) + strata.base[part] +
+          strata.size * inside) *
+         0.25f;
+}
+
+// Parameters of a face to points of it, `offset` lengths off it. Loops over lanes stand alone, so that they
+// compile to wide instructions.
+void make_face_points(Points& points, const FaceFrameTable& frames, uint32_t face, Vec3 offset,
+                      const float (&u)[kPacketSize], const float (&v)[kPacketSize]) {
+  const Vec3 origin = frames.origin[face] + offset, edge_u = frames.edge_u[face],
+             edge_v = frames.edge_v[face], twist = frames.twist[face];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float both = u[k] * v[k];
+    points.x[k] = origin.x + u[k] * edge_u.x + v[k] * edge_v.x + both * twist.x;
+    points.y[k] = origin.y + u[k] * edge_u.y + v[k] * edge_v.y + both * twist.y;
+    points.z[k] = origin.z + u[k] * edge_u.z + v[k] * edge_v.z + both * twist.z;
+  }
+}
+
+// About how far a point is from the nearest of the emitter.
+float find_gap(Vec3 point, const Emitter& emitter, const FaceFrameTable& frames) {
+  const Vec2 in_cell =
+      (find_face_parameters(frames, emitter.face, point) - emitter.cell.origin) / emitter.cell.size;
+  Vec2 uv = clamp(in_cell, Vec2(0), Vec2(1));
+  if (frames.triangle[emitter.face] && uv.x + uv.y > 1) uv /= uv.x + uv.y;
+  return distance(point, face_point(frames, emitter.face, emitter.cell.origin + emitter.cell.size * uv));
+}
+
+// Adds one packet of pairs: the element's points against points of the emitter.
+void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet,
+                    const Emitter& emitter) {
+  const Points& points = from.points[packet];
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
+  const bool triangle = frames.triangle[emitter.face];
+  // Strata of the emitter are those of the element with the axes swapped and shuffled: each axis of the one
+  // meets each axis of the other evenly.
+  const uint64_t emitter_key = mix_bits(from.key ^ emitter.key);
+  const auto shuffle = static_cast<uint32_t>(emitter_key >> 4 * (packet % 15));
+  float u[kPacketSize], v[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t column = (k / 4) ^ (shuffle & 3), row = (k % 4) ^ (shuffle >> 2 & 3);
+    const Vec2 uv = cell_sample(triangle, emitter.cell,
+                                stratified_sample(emitter_key, packet, from.strata, column, row, k));
+    u[k] = uv.x, v[k] = uv.y;
+  }
+  Points targets;
+  make_face_points(targets, frames, emitter.face, ray_offset(emitter.centre) * emitter.normal, u, v);
+  RayPacket rays;
+  float kernel[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float x = targets.x[k] - points.x[k], y = targets.y[k] - points.y[k],
+                z = targets.z[k] - points.z[k];
+    const float squared = x * x + y * y + z * z;
+    const float jacobian = 1 + v[k] * emitter.twist.x + u[k] * emitter.twist.y;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float emitter_cosine =
+        std::max(-(x * emitter.normal.x + y * emitter.normal.y + z * emitter.normal.z), 0.0f);
+    kernel[k] = cosine * emitter_cosine * jacobian / std::max(squared * squared, 1e-30f);
+    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
+    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
+  active &= from.open[packet];
+  if (!active) return;
+  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(active >> k & 1u)) continue;
+    sums.all += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  }
+  sums.rays += static_cast<uint32_t>(std::popcount(active));
+  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
+// The points of a packet, just off the element's face.
+void make_points(Points& points, const ElementPoints& from, uint32_t packet) {
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const auto [face, code, level] = name_cell(from.elements, from.row);
+  const bool triangle = frames.triangle[face];
+  const CellFrame cell = make_cell_frame(triangle, code, level);
+  float u[kPacketSize], v[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec2 uv =
+        cell_sample(triangle, cell, stratified_sample(from.key, packet, from.strata, k % 4, k / 4, k));
+    u[k] = uv.x, v[k] = uv.y;
+  }
+  const Vec3 normal = from.surfaces.faces.normal[face];
+  make_face_points(points, frames, face, ray_offset(face_point(frames, face, {u[0], v[0]})) * normal, u, v);
+}
+
+// Which of the points lie inside a solid: a bit a point.
+uint32_t find_buried_points(const Points& points, Vec3 normal, const Surfaces& surfaces) {
+  RayPacket rays;
+  std::copy_n(points.x, kPacketSize, rays.origin_x);
+  std::copy_n(points.y, kPacketSize, rays.origin_y);
+  std::copy_n(points.z, kPacketSize, rays.origin_z);
+  return find_buried(surfaces, make_frame(normal), rays, 0xffff);
+}
+
+}  // namespace
+
+void start_element(ElementPoints& from, uint32_t row, uint64_t seed, uint64_t salt) {
+  const auto [face, cell, level] = name_cell(from.elements, row);
+  from.row = row;
+  from.key = make_ray_key(seed, face, cell, level, kDirectRays) ^ salt;
+  from.made = 0;
+}
+
+void make_packets(ElementPoints& from, uint32_t count) {
+  for (; from.made < count; ++from.made) {
+    Points& points = from.points[from.made];
+    make_points(points, from, from.made);
+    from.open[from.made] = 0xffff;
+    if (from.elements.exposed[from.row] < 1)
+      from.open[from.made] &= ~find_buried_points(
+          points, from.surfaces.faces.normal[from.elements.face[from.row]], from.surfaces);
+  }
+}
+
+float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& corners, const Emitter& emitter,
+                       uint32_t usable) {
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const auto [face, code, own_level] = name_cell(from.elements, from.row);
+  const Vec3 normal = from.surfaces.faces.normal[face];
+  if (usable != 0xffff) {
+    const Points& points = from.points[0];
+    float sum = 0;
+    for (uint32_t k = 0; k < kPacketSize; ++k)
+      if (usable >> k & 1u)
+        sum += find_point_factor({points.x[k], points.y[k], points.z[k]}, normal, emitter);
+    return sum / static_cast<float>(std::popcount(usable));
+  }
+  const Vec3 centre = cell_centre(frames, face, code, own_level);
+  const float edge = longest_edge(corners), gap = find_gap(centre, emitter, frames);
+  if (gap > kNearEmitter * edge) return find_point_factor(centre, normal, emitter);
+  // Very near, where the factor changes much over the element, parts of it each take the rule.
+  const uint32_t parts_level = gap > 3 * edge ? 0 : gap > edge ? 1 : gap > 0.3f * edge ? 2 : 3;
+  const uint32_t level = std::min(own_level + parts_level, kLevelMax);
+  // Points of Gauss's rules: four on a square, exact to the third degree; three on a triangle, to the second.
+  constexpr float kSixth = 1 / 6.0f, kTwoThirds = 2 / 3.0f;
+  constexpr float kSquare[4][2] = {
+      {kGauss[0], kGauss[0]}, {kGauss[1], kGauss[0]}, {kGauss[0], kGauss[1]}, {kGauss[1], kGauss[1]}};
+  constexpr float kTriangle[3][2] = {{kSixth, kSixth}, {kTwoThirds, kSixth}, {kSixth, kTwoThirds}};
+  const bool triangle = frames.triangle[face];
+  const uint32_t part_count = 1u << 2 * (level - own_level);
+  float sum = 0;
+  for (uint32_t part = 0; part < part_count; ++part) {
+    const uint32_t below = level == 0 ? 0 : part << (32 - 2 * level);
+    const CellFrame cell = make_cell_frame(triangle, code | below, level);
+    for (const auto& point :
+         triangle ? std::span<const float[2]>(kTriangle) : std::span<const float[2]>(kSquare))
+      sum += find_point_factor(face_point(frames, face, cell.origin + cell.size * Vec2(point[0], point[1])),
+                               normal, emitter);
+  }
+  return sum / (static_cast<float>(part_count) * (triangle ? 3.0f : 4.0f));
+}
+
+VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint32_t packet_count,
+                               uint32_t unmixed) {
+  VisibilitySums sums;
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    make_packets(from, packet + 1);
+    add_visibility(sums, from, packet, emitter);
+  }
+  return sums;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,73 @@
+// An element and an emitter: how much of the element's sky it fills, and how much of it is seen.
+//
+// The mean unoccluded factor is exact but for its quadrature; visibility is sum(k V) / sum(k) over pairs of
+// points, k the form-factor kernel and V whether they see each other. A plain visible share instead is biased
+// for near and large pairs. (Ratio estimators in rendering: Heitz, Hill, McGuire: Combining Analytic Direct
+// Illumination and Stochastic Shadows, 2018.)
+#pragma once
+
+#include "engine/light/emitters.h"
+#include "engine/mesh/surfaces.h"
+
+namespace patchlight {
+
+constexpr uint32_t kPacketsMax = 16;  // of pairs for an element and an emitter
+
+// Sixteen points just off an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts
+// of their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or
+// 16 x 16.
+struct Points {
+  float x[kPacketSize], y[kPacketSize], z[kPacketSize];
+};
+
+// Which part of a stratum the samples of a packet keep to, by the packet's number.
+struct Strata {
+  std::array<Vec2, kPacketsMax> base;
+  float size = 1;
+  explicit Strata(uint32_t packets) : base{} {
+    // From the last digit of the packet to the first: each halves what the ones before it left.
+    for (uint32_t parts = packets, shift = 0; parts >= 4; parts /= 4, shift += 2) {
+      size *= 0.5f;
+      for (uint32_t k = 0; k < kPacketsMax; ++k)
+        base[k] += size * Vec2(static_cast<float>(k >> shift & 1u), static_cast<float>(k >> shift >> 1 & 1u));
+    }
+  }
+};
+
+// One element after the other, and its packets of points: made when first asked for and used for all
+// emitters.
+struct ElementPoints {
+  const Surfaces& surfaces;
+  const PatchTable& elements;
+  Strata strata;
+  uint32_t row = 0;
+  uint64_t key = 0;   // of the element's samples
+  uint32_t made = 0;  // packets
+  std::array<Points, kPacketsMax> points;
+  std::array<uint32_t, kPacketsMax> open;  // those that do not lie inside a solid: a bit a point
+  ElementPoints(const Surfaces& all, const PatchTable& table, uint32_t packets)
+      : surfaces(all), elements(table), strata(packets) {}
+};
+// Goes on to another element. salt: other samples for another purpose.
+void start_element(ElementPoints& from, uint32_t row, uint64_t seed, uint64_t salt = 0);
+// Makes the packets up to `count`.
+void make_packets(ElementPoints& from, uint32_t count);
+
+// The element's mean unoccluded factor: at its centre, by Gauss's rule if the emitter is near, at the points
+// `usable` of its first packet if it is partly buried. corners: of the element.
+float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& corners, const Emitter& emitter,
+                       uint32_t usable);
+
+struct VisibilitySums {
+  float all = 0, seen = 0;         // of the kernel
+  uint32_t rays = 0, reached = 0;  // counts
+  float share() const { return all > 0 ? seen / all : 0; }
+};
+
+// Packets of pairs of an element and an emitter: `unmixed` rays while they agree (there is no shadow edge
+// here then), up to `packet_count` packets where some arrive and some do not. Makes the packets of points
+// that it lacks.
+VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint32_t packet_count,
+                               uint32_t unmixed);
+
+}  // namespace patchlight

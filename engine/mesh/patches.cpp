@@ -1,0 +1,145 @@
+// Faces to patches, by what lies before them and by the light that they carry.
+#include "engine/mesh/patches.h"
+
+#include "engine/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kProbeRayCount = 32;
+// A difference between neighbours, beyond its noise, splits them if it is more than this share of their
+// radiosity ...
+constexpr float kUnevenShare = 0.02f;
+// ... and, times the area of the patch, more than this share of all light that the scene's area sends.
+constexpr float kUnevenPower = 1e-5f;
+constexpr float kUnevenNoise = 3;          // standard errors
+constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's area: no smaller parts
+
+}  // namespace
+
+Probe probe_cell(const CellRays& rays, const Surfaces& surfaces) {
+  const FaceTable& faces = surfaces.faces;
+  Probe probe;
+  probe.ray_count = rays.grid.ray_count();
+  HitPacket packet;
+  for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
+    make_ray_packet(packet, rays, surfaces.frames, tile);
+    find_hits(surfaces.tracer, packet, 0xffff);
+    uint32_t back = 0;
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      if (packet.face[k] == kNone) continue;
+      const RayPacket& r = packet.ray;
+      ++probe.hit_count;
+      probe.inverse_distance_sum += 1 / std::max(r.far_distance[k], 1e-6f);
+      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
+      if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
+    }
+    if (back)
+      probe.buried_count +=
+          static_cast<uint32_t>(std::popcount(find_buried(surfaces, rays.frame, packet.ray, back)));
+  }
+  return probe;
+}
+
+PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings, uint64_t& ray_count) {
+  const FaceTable& faces = surfaces.faces;
+  const FaceFrameTable& frames = surfaces.frames;
+  const FaceLinkTable& links = surfaces.smooth_links;
+  const uint64_t patch_count_max = settings.count_max;
+  const float scale = surfaces.scale * settings.size_factor;
+  // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
+  float edge_max = kPatchEdgeMax * scale;
+  const auto start_level = [&](uint32_t face) {
+    uint32_t level = 0;
+    float edge = longest_edge(cell_corners(frames, face, 0, 0));
+    while (edge > edge_max && level < kLevelMax - 1) edge /= 2, ++level;
+    return level;
+  };
+  const auto count_at_start = [&] {
+    uint64_t count = 0;
+    for (uint32_t f = 0; f < faces.size(); ++f) count += uint64_t{1} << 2 * start_level(f);
+    return count;
+  };
+  const uint64_t room_at_start = patch_count_max > faces.size() ? (patch_count_max - faces.size()) / 2 : 0;
+  while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
+  PatchTable patches = make_leaves(faces, frames, start_level);
+  balance_leaves(patches, frames, links);
+  const RayGrid grid = make_ray_grid(kProbeRayCount);
+  std::vector<uint8_t> fresh(patches.size(), 1);
+  for (;;) {
+    std::vector<uint8_t> near(patches.size(), 0);  // to what they see, for their size, or at a solid
+    std::atomic<uint64_t> probed{0};
+    for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
+      for (size_t row = begin; row < end; ++row) {
+        const auto [face, cell, level] = name_cell(patches, row);
+        const float edge = longest_edge(cell_corners(frames, face, cell, level));
+        if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
+        const Probe probe =
+            probe_cell(make_cell_rays(faces, {face, cell, level}, kProbeRays, settings.seed, grid), surfaces);
+        probed += probe.ray_count;
+        const bool at_solid = probe.buried_count > 0 && probe.buried_count < probe.ray_count;
+        const bool is_near =
+            edge * probe.inverse_distance_sum >
+            kPatchEdgePerDistance * settings.size_factor * static_cast<float>(probe.hit_count);
+        const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
+        if (probe.buried_count == probe.ray_count || !(is_near || at_solid) || edge < 2 * edge_min) continue;
+        near[row] = 1;
+      }
+    });
+    ray_count += probed;
+    if (std::count(near.begin(), near.end(), 1) == 0) return patches;
+    // Where the budget ends, the largest have the most to gain.
+    std::vector<float> weight(patches.size(), 0);
+    for (size_t row = 0; row < near.size(); ++row)
+      if (near[row]) weight[row] = patches.area[row];
+    const std::vector<uint8_t> marks = mark_within_budget(weight, patches, frames, links, patch_count_max);
+    bool last = false;
+    for (size_t row = 0; row < near.size(); ++row) last |= near[row] && !marks[row];
+    std::vector<uint32_t> parent;
+    const PatchTable before = std::move(patches);
+    patches = split_leaves(before, frames, marks, parent);
+    if (last) return patches;
+    fresh.assign(patches.size(), 0);
+    for (size_t row = 0; row < patches.size(); ++row) fresh[row] = marks[parent[row]];
+  }
+}
+
+std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& light, const Surfaces& surfaces,
+                                 const PatchSettings& settings) {
+  const FaceFrameTable& frames = surfaces.frames;
+  const float size_factor = settings.size_factor;
+  const float edge_min = kUnevenEdgeMin * surfaces.scale * size_factor;
+  const float area_factor = size_factor * size_factor;
+  const float share = kUnevenShare * area_factor;
+  double power = 0;
+  for (size_t row = 0; row < patches.size(); ++row) power += double{patches.area[row]} * light.total[row];
+  const auto power_least = static_cast<float>(kUnevenPower * power) * area_factor * area_factor;
+  std::vector<float> weight(patches.size(), 0);
+  for_rows(patches.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t at = begin; at < end; ++at) {
+      const auto row = static_cast<uint32_t>(at);
+      const uint32_t face = patches.face[row], level = patches.level[row];
+      if (patches.exposed[row] == 0 || level >= kLevelMax - 2) continue;
+      const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
+      if (size < 2 * edge_min) continue;
+      for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
+        for (const uint32_t other : find_neighbours(patches, frames, surfaces.links, row, edge)) {
+          if (other == kNone || patches.exposed[other] == 0) continue;
+          const float difference = std::abs(light.indirect[row] - light.indirect[other]) -
+                                   kUnevenNoise * std::hypot(light.error[row], light.error[other]);
+          if (difference > share * std::max(light.total[row], light.total[other]))
+            weight[row] = std::max(weight[row], difference * patches.area[row]);
+        }
+    }
+  });
+  for (float& change : weight)
+    if (change <= power_least) change = 0;
+  return mark_within_budget(weight, patches, frames, surfaces.smooth_links, settings.count_max);
+}
+
+}  // namespace patchlight

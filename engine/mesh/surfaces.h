@@ -1,0 +1,26 @@
+// What a scene's faces are to the solver: checked, with all that is derived from them. It never changes.
+#pragma once
+
+#include "engine/tables.h"
+#include "engine/trace/tracer.h"
+
+#include <memory>
+
+namespace patchlight {
+
+struct Surfaces {
+  FaceTable faces;
+  FaceFrameTable frames;
+  FaceLinkTable links;         // within polygons
+  FaceLinkTable smooth_links;  // and across smooth edges between them
+  Tracer tracer;
+  float scale = 0;  // lengths: the square root of the area of all faces
+};
+
+// Throws std::invalid_argument, with the column and the row, where faces are not what tables.h says.
+void check_faces(const FaceTable& faces);
+
+// Checks the faces and prepares them. Throws what check_faces() and make_tracer() throw.
+std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces);
+
+}  // namespace patchlight

@@ -1,0 +1,142 @@
+// Counts to seconds and bytes. The constants were fitted to rooms, a hall of 64 lamps and a furnished room of
+// 8,508 faces, each with 64 to 1,024 rays a row and 20 thousand to 2 million patches, and looked at with
+// 100,820 faces of furniture, on one core of an AMD EPYC.
+#include "engine/solve/forecast.h"
+
+#include "engine/mesh/cell_rays.h"
+#include "engine/factors/polygon_factors.h"
+#include "engine/solve/sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchlight {
+namespace {
+
+// Microseconds. What a ray costs grows with the depth of the tree of faces, and faster where its levels no
+// longer fit the caches.
+constexpr double kRowRay = 0.065, kLampRay = 0.045, kPixel = 0.65;
+constexpr double kRowRayOfDepth = 1.1e-4, kLampRayOfDepth = 4e-5, kPixelOfDepth = 4e-4;  // by its cube
+constexpr double kKeptRay = 0.001;   // of a row that is kept, in each pass
+constexpr double kElement = 1.5;     // split, compared and joined
+constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
+
+constexpr double kFaceBytes = 400, kElementBytes = 190, kPatchBytes = 200, kRayBytes = 8;
+constexpr double kPatchesOfRooms = 12'000;  // beside one a face
+// Of the square root of the scene's area: smaller faces of meshes share rows.
+constexpr double kSharedSpan = 0.01;
+
+double cube_of_depth(const FaceTable& faces) {
+  return std::pow(std::log2(static_cast<double>(faces.size()) + 1), 3);
+}
+
+struct Counts {
+  double lamps = 0;        // faces that emit
+  bool are_aimed = false;  // not where what emits is most of the scene: rows find it
+  double rows = 0;         // that faces need, whole or in part
+};
+Counts count_faces(const FaceTable& faces) {
+  const FaceFrameTable frames = make_face_frames(faces);
+  double lit = 0, all = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) all += double{cell_area(frames, f, 0, 0)};
+  Counts counts;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const double area = double{cell_area(frames, f, 0, 0)};
+    counts.rows += faces.surface[f] == kNone ? 1 : std::min(1.0, area / (all * kSharedSpan * kSharedSpan));
+    if (largest(faces.emission[f]) <= 0) continue;
+    lit += area;
+    ++counts.lamps;
+  }
+  counts.are_aimed = counts.lamps > 0 && lit < all / 2;
+  return counts;
+}
+
+// A mesh starts with so many elements. Shadow edges grow as the square root of their number, and what is
+// smooth does not grow.
+double forecast_elements(double start, double patches, const Counts& counts, const SolverSettings& settings) {
+  constexpr double kAlongEdges = 800;
+  const double refined = counts.are_aimed ? kAlongEdges * std::sqrt(start) : 0;
+  const double most = std::max(start, static_cast<double>(settings.patch_count_max));
+  return std::min(std::max(start, patches) + refined, most);
+}
+
+// Rays to lamps from all elements: fewer for each lamp where there are many.
+double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
+  if (!counts.are_aimed) return 0;
+  const double lamps = std::min(counts.lamps, static_cast<double>(kAimedLampsMax));
+  return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 256, 0.4);
+}
+
+// The elements that a budget leads to, for solvers whose cost grows with all pairs of them.
+uint64_t count_elements_most(const FaceTable& faces, const SolverSettings& settings,
+                             uint64_t starting_patches) {
+  return std::max({starting_patches, settings.patch_count_max, uint64_t{faces.size()}});
+}
+
+}  // namespace
+
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
+  const auto face_count = static_cast<double>(faces.size());
+  const auto start = static_cast<double>(starting_patches);
+  const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
+  const double rays = make_ray_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
+  const double row_ray = kRowRay + kRowRayOfDepth * depth;
+  const Counts counts = count_faces(faces);
+  Forecast forecast;
+  const double factor = find_size_factor(settings);
+  const double more = std::min((budget - face_count) / 2, kPatchesOfRooms / (factor * factor));
+  forecast.patches = face_count + more;
+  forecast.rows = counts.rows + more;
+  forecast.elements = forecast_elements(start, forecast.patches, counts, settings);
+  const double row_rays = forecast.rows * rays;
+  const double lamp_rays = forecast_lamp_rays(forecast.elements, counts, rays);
+  const double later_passes = std::max(0.0, settings.pass_count_max - 2.0);
+  forecast.rays = row_rays * (1 + kAimedShare) + lamp_rays;
+  forecast.seconds = 1e-6 * (row_rays * row_ray * (1 + kAimedShare) +
+                             lamp_rays * (kLampRay + kLampRayOfDepth * depth) + forecast.elements * kElement +
+                             later_passes * row_rays * (settings.keep_rows ? kKeptRay : row_ray));
+  forecast.bytes = face_count * kFaceBytes + forecast.elements * kElementBytes +
+                   forecast.patches * kPatchBytes + (settings.keep_rows ? row_rays * kRayBytes : 0);
+  return forecast;
+}
+
+uint64_t forecast_matrix_bytes(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches) {
+  const uint64_t n = count_elements_most(faces, settings, starting_patches);
+  // Twenty times the square must not overflow.
+  if (n >= uint64_t{1} << 29) return ~uint64_t{0} / 4;
+  return n * n * sizeof(double) + forecast_factor_bytes(n, n);
+}
+
+double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& settings,
+                               uint64_t starting_patches) {
+  constexpr double kPair = 4e-6, kMultiply = 1.2e-10;
+  const auto n = static_cast<double>(count_elements_most(faces, settings, starting_patches));
+  return n * n * kPair + n * n * n * kMultiply;
+}
+
+double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
+                                 uint64_t starting_patches) {
+  constexpr double kShotsAPatch = 5, kElement = 1.5e-7;
+  const Forecast mesh = forecast_solve(faces, settings, starting_patches);
+  return kShotsAPatch * mesh.patches * mesh.elements * kElement;
+}
+
+double forecast_film_seconds(const FaceTable& faces, double pixels) {
+  return 1e-6 * pixels * (kPixel + kPixelOfDepth * cube_of_depth(faces));
+}
+
+uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
+  // Bytes a row, from tables.h; the largest moment is a split, when the rows of the patches or, later, the
+  // elements exist twice, or the making of the shared corners.
+  constexpr uint64_t kFace = 700, kElement = 190, kPatch = 200;
+  const uint64_t elements = std::max(starting_patches, settings.patch_count_max);
+  const uint64_t patches = count_transport_patches(faces, settings);
+  const uint64_t row_bytes =
+      settings.keep_rows ? 8 * uint64_t{make_ray_grid(count_row_rays(settings)).ray_count()} : 0;
+  const uint64_t rows = row_bytes * patches;
+  return kFace * faces.size() + kPatch * patches +
+         std::max(2 * rows + kElement * std::max(starting_patches, patches), rows + kElement * elements);
+}
+
+}  // namespace patchlight

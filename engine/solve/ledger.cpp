@@ -1,0 +1,120 @@
+// Where the power went: measured by the rays that patches send, against what patches say that they received.
+#include "engine/mesh/cell_rays.h"
+#include "engine/base/parallel.h"
+#include "engine/solve/solve.h"
+
+#include <algorithm>
+
+namespace patchlight {
+namespace {
+
+constexpr uint32_t kEmissionRayCount = 1u << 16;  // for all lamps together
+
+struct Shares {
+  double nothing = 0, back = 0;  // of what a cell sends; the rest lands on lit sides
+};
+
+// Where a sender's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
+Shares find_emission_shares(const CellRays& rays, const Surfaces& surfaces) {
+  const RayGrid& grid = rays.grid;
+  std::vector<uint32_t> nothing(grid.packet_count()), back(grid.packet_count());
+  for_rows(grid.packet_count(), 16, [&](size_t begin, size_t end) {
+    HitPacket packet;
+    for (size_t tile = begin; tile < end; ++tile) {
+      make_ray_packet(packet, rays, surfaces.frames, static_cast<uint32_t>(tile));
+      find_hits(surfaces.tracer, packet, 0xffff);
+      for (uint32_t k = 0; k < kPacketSize; ++k) {
+        const RayPacket& r = packet.ray;
+        if (packet.face[k] == kNone) {
+          ++nothing[tile];
+        } else if (dot(Vec3(r.direction_x[k], r.direction_y[k], r.direction_z[k]),
+                       surfaces.faces.normal[packet.face[k]]) >= 0) {
+          ++back[tile];
+        }
+      }
+    }
+  });
+  Shares shares;
+  for (const uint32_t count : nothing) shares.nothing += count;
+  for (const uint32_t count : back) shares.back += count;
+  shares.nothing /= grid.ray_count();
+  shares.back /= grid.ray_count();
+  return shares;
+}
+
+// Shooting: has the patch sent its emission yet?
+bool is_sent(const Solution& s, size_t patch) { return !s.shooting || s.shooting->shots[patch] > 0; }
+
+// Faces whose emission is sent; of those that shots have sent in part, the patches that were.
+std::vector<CellName> find_senders(const Solution& s) {
+  const FaceTable& faces = s.surfaces->faces;
+  std::vector<CellName> senders;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (largest(faces.emission[f]) <= 0) continue;
+    const uint32_t first = s.mesh.patches.face_first[f], last = s.mesh.patches.face_first[f + 1];
+    uint32_t sent = 0;
+    for (uint32_t p = first; p < last; ++p) sent += is_sent(s, p);
+    if (sent == last - first) {
+      senders.push_back({f});
+      continue;
+    }
+    for (uint32_t p = first; p < last; ++p)
+      if (is_sent(s, p)) senders.push_back(name_cell(s.mesh.patches, p));
+  }
+  return senders;
+}
+
+}  // namespace
+
+PowerLedger find_power_ledger(const Solution& s) {
+  const WorkersScope scope(s.workers);
+  const FaceTable& faces = s.surfaces->faces;
+  PowerLedger ledger;
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    ledger.emitted += double{cell_area(s.surfaces->frames, f, 0, 0)} * DRgb(faces.emission[f]);
+  const double emitted_sum = sum_channels(ledger.emitted);
+  // Emission is sent once the first pass has run.
+  if (s.log.passes.empty()) {
+    ledger.unshot = ledger.emitted;
+    return ledger;
+  }
+  for (const CellName& sender : find_senders(s)) {
+    const double area = double{cell_area(s.surfaces->frames, sender.face, sender.cell, sender.level)};
+    const DRgb power = area * DRgb(faces.emission[sender.face]);
+    const double share = sum_channels(power) / std::max(emitted_sum, 1e-300);
+    const double rays = std::clamp(share * kEmissionRayCount, 256.0, double{kEmissionRayCount});
+    const Shares shares = find_emission_shares(make_cell_rays(faces, sender, kEmissionRays, s.settings.seed,
+                                                              make_ray_grid(static_cast<uint32_t>(rays))),
+                                               *s.surfaces);
+    ledger.escaped += shares.nothing * power;
+    ledger.absorbed += shares.back * power;
+  }
+  const std::vector<Rgb> irradiance = element_irradiance(s);
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
+    const size_t receiver = s.transport.receivers.receiver_of[p];
+    const double nothing = s.transport.hits.nothing[receiver], back = s.transport.hits.back[receiver];
+    const double valid = s.transport.hits.valid_count(receiver);
+    const DRgb rho(faces.reflectance[s.mesh.patches.face[p]]);
+    DRgb received(0), unshot(0);
+    for (uint32_t row = s.mesh.element_first[p]; row < s.mesh.element_first[p + 1]; ++row) {
+      const double area = double{s.mesh.elements.area[row]} * s.mesh.elements.exposed[row];
+      received += area * DRgb(irradiance[row]);
+      unshot += area * DRgb(s.mesh.elements.unshot[row]);
+    }
+    ledger.unshot += unshot;
+    ledger.absorbed += (DRgb(1) - rho) * received;
+    // What is unshot of the light that was received.
+    if (!is_sent(s, p))
+      unshot -= double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] *
+                DRgb(faces.emission[s.mesh.patches.face[p]]);
+    if (valid > 0) {
+      ledger.escaped += (rho * received - unshot) * (nothing / valid);
+      ledger.absorbed += (rho * received - unshot) * (back / valid);
+    }
+  }
+  const DRgb miss = ledger.emitted - ledger.absorbed - ledger.escaped - ledger.unshot;
+  ledger.closure_error = emitted_sum > 0 ? std::abs(sum_channels(miss)) / emitted_sum : 0;
+  return ledger;
+}
+
+}  // namespace patchlight

@@ -1,0 +1,131 @@
+// A solution to what is read of it: rows, means, radiosity at corners, irradiance, a hash.
+#include "engine/solve/solution.h"
+
+#include "engine/film/film.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace patchlight {
+namespace {
+
+// Radiosity at the corners of the elements, from irradiance: a column of the elements, one of the patches,
+// and the same everywhere.
+std::vector<Rgb> find_vertex_radiosity(const Solution& s, std::span<const Rgb> sharp,
+                                       std::span<const Rgb> smooth, Rgb ambient) {
+  const FaceTable& faces = s.surfaces->faces;
+  const PatchTable& elements = s.mesh.elements;
+  const VertexTable& vertices = s.mesh.element_vertices;
+  const LeafSurface patches = patch_surface(s);
+  const std::vector<Rgb> indirect = reconstruct(patches, smooth, kIndirectSurface);
+  std::vector<Rgb> values = reconstruct({vertices, elements, s.surfaces->frames}, sharp, kDirectSurface);
+  for_rows(vertices.size(), 2048, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      const uint32_t row = vertices.vertex_leaf[vertices.vertex_first[v]], face = elements.face[row];
+      const auto& corner = vertices.leaf_vertex[row];
+      const size_t k = static_cast<size_t>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+      const Vec2 uv = cell_corner_parameters(s.surfaces->frames.triangle[face], elements.cell[row],
+                                             elements.level[row])[k];
+      const Rgb received =
+          ambient + values[v] + sample_surface(patches, indirect, s.mesh.element_patch[row], uv);
+      values[v] = faces.emission[face] + faces.reflectance[face] * received;
+    }
+  });
+  return values;
+}
+
+}  // namespace
+
+Rows get_rows(const Solution& s) {
+  return {{*s.surfaces, s.mesh.patches, s.mesh.patch_index, s.transport.receivers,
+           make_ray_grid(count_row_rays(s.settings)), s.settings.seed},
+          s.transport.hits};
+}
+
+std::vector<Rgb> find_patch_means(const Solution& s, std::span<const Rgb> column) {
+  std::vector<Rgb> means(s.mesh.patches.size(), Rgb(0));
+  for_rows(means.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      Rgb sum(0);
+      float area = 0;
+      for (uint32_t row = s.mesh.element_first[p]; row < s.mesh.element_first[p + 1]; ++row) {
+        const float exposed_area = s.mesh.elements.area[row] * s.mesh.elements.exposed[row];
+        sum += exposed_area * column[row];
+        area += exposed_area;
+      }
+      if (area > 0) means[p] = sum / area;
+    }
+  });
+  return means;
+}
+
+std::vector<Rgb> vertex_radiosity(const Solution& s, Rgb ambient) {
+  assert(s.mesh.frozen);
+  const WorkersScope scope(s.workers);
+  return find_vertex_radiosity(s, s.light.sharp, s.light.smooth, ambient);
+}
+
+std::vector<Rgb> vertex_radiosity_forecast(const Solution& s) {
+  assert(s.mesh.frozen);
+  const WorkersScope scope(s.workers);
+  return find_vertex_radiosity(s, s.light.direct, s.light.coarse, Rgb(0));
+}
+
+Scenery make_scenery(const Solution& s) {
+  const WorkersScope scope(s.workers);
+  const FaceTable& faces = s.surfaces->faces;
+  std::vector<float> brightness(s.mesh.elements.size());
+  for_rows(brightness.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const uint32_t face = s.mesh.elements.face[row];
+      const Rgb received = s.light.direct[row] + s.light.coarse[s.mesh.element_patch[row]];
+      brightness[row] = largest(faces.emission[face] + faces.reflectance[face] * received);
+    }
+  });
+  return {*s.surfaces, s.mesh, std::move(brightness), s.light.mean_radiosity};
+}
+
+std::vector<Rgb> element_irradiance(const Solution& s) {
+  const WorkersScope scope(s.workers);
+  std::vector<Rgb> irradiance = s.light.sharp;
+  for_element_values(s, s.light.smooth, all_rows(s.mesh.elements.size()),
+                     [&](uint32_t row, Rgb received) { irradiance[row] += received; });
+  return irradiance;
+}
+
+uint64_t find_solution_hash(const Solution& s) {
+  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a, over 32-bit words
+  for (const Rgb& value : s.mesh.elements.radiosity)
+    for (int k = 0; k < 3; ++k) hash = (hash ^ std::bit_cast<uint32_t>(value[k])) * 0x100000001b3ull;
+  return hash;
+}
+
+uint64_t count_bytes(const Solution& s) {
+  const auto bytes = [](const auto&... column) {
+    return ((column.capacity() * sizeof(column[0])) + ... + 0);
+  };
+  const auto patch_bytes = [&](const PatchTable& t) {
+    return bytes(t.face, t.cell, t.level, t.area, t.exposed, t.radiosity, t.unshot, t.face_first);
+  };
+  const auto vertex_bytes = [&](const VertexTable& t) {
+    return bytes(t.leaf_vertex, t.vertex_first, t.vertex_leaf, t.hanging_between, t.hanging_order, t.border);
+  };
+  if (!s.surfaces) return 0;  // not made yet
+  const FaceFrameTable& f = s.surfaces->frames;
+  return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine,
+               s.surfaces->links.edge, s.surfaces->links.corner, s.surfaces->smooth_links.edge,
+               s.surfaces->smooth_links.corner, s.mesh.element_first, s.mesh.element_patch,
+               s.transport.light_lists.list_of, s.transport.light_lists.list_first,
+               s.transport.light_lists.lamp, s.transport.receivers.first, s.transport.receivers.patch,
+               s.transport.receivers.area_until, s.transport.receivers.centre, s.transport.receivers.normal,
+               s.transport.receivers.receiver_of, s.transport.views.seen, s.transport.views.hidden,
+               s.transport.views.settled, s.transport.hits.patch, s.transport.hits.cell,
+               s.transport.hits.nothing, s.transport.hits.back, s.transport.hits.buried, s.light.direct,
+               s.light.direct_error, s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.coarse,
+               s.light.coarse_error, s.mesh.fresh, s.mesh.reasons) +
+         patch_bytes(s.mesh.patches) + patch_bytes(s.mesh.elements) + vertex_bytes(s.mesh.patch_vertices) +
+         vertex_bytes(s.mesh.element_vertices);
+}
+
+}  // namespace patchlight
