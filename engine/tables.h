@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace patchlight {
@@ -147,5 +148,96 @@ struct SourceTable {
   std::vector<double> flux_before;  // a row an element and one more: flux of the elements before it
   size_t size() const { return face.size(); }
 };
+
+// The columns of each table, listed once: for all that goes over them.
+template <typename Member>
+struct TableColumn {
+  const char* name;
+  Member member;
+  bool has_rows = true;  // a row a row of the table; false: rows of its own
+};
+template <typename Member>
+TableColumn(const char*, Member) -> TableColumn<Member>;
+template <typename Member>
+TableColumn(const char*, Member, bool) -> TableColumn<Member>;
+
+constexpr auto list_columns(const FaceTable*) {
+  using T = FaceTable;
+  return std::tuple{
+      TableColumn{"corners", &T::corners},         TableColumn{"corner_count", &T::corner_count},
+      TableColumn{"normal", &T::normal},           TableColumn{"emission", &T::emission},
+      TableColumn{"reflectance", &T::reflectance}, TableColumn{"polygon", &T::polygon},
+      TableColumn{"surface", &T::surface},         TableColumn{"twin", &T::twin},
+      TableColumn{"patch_size", &T::patch_size},   TableColumn{"level_min", &T::level_min}};
+}
+constexpr auto list_columns(const FaceFrameTable*) {
+  using T = FaceFrameTable;
+  return std::tuple{TableColumn{"origin", &T::origin},     TableColumn{"edge_u", &T::edge_u},
+                    TableColumn{"edge_v", &T::edge_v},     TableColumn{"twist", &T::twist},
+                    TableColumn{"dual_u", &T::dual_u},     TableColumn{"dual_v", &T::dual_v},
+                    TableColumn{"triangle", &T::triangle}, TableColumn{"affine", &T::affine}};
+}
+constexpr auto list_columns(const FaceLinkTable*) {
+  using T = FaceLinkTable;
+  return std::tuple{TableColumn{"edge", &T::edge}, TableColumn{"corner", &T::corner}};
+}
+constexpr auto list_columns(const PatchTable*) {
+  using T = PatchTable;
+  return std::tuple{TableColumn{"face", &T::face},       TableColumn{"cell", &T::cell},
+                    TableColumn{"level", &T::level},     TableColumn{"area", &T::area},
+                    TableColumn{"exposed", &T::exposed}, TableColumn{"radiosity", &T::radiosity},
+                    TableColumn{"unshot", &T::unshot},   TableColumn{"face_first", &T::face_first, false}};
+}
+constexpr auto list_columns(const VertexTable*) {
+  using T = VertexTable;
+  return std::tuple{TableColumn{"leaf_vertex", &T::leaf_vertex, false},
+                    TableColumn{"vertex_first", &T::vertex_first, false},
+                    TableColumn{"vertex_leaf", &T::vertex_leaf, false},
+                    TableColumn{"hanging_between", &T::hanging_between},
+                    TableColumn{"hanging_order", &T::hanging_order, false},
+                    TableColumn{"border", &T::border}};
+}
+constexpr auto list_columns(const LightListTable*) {
+  using T = LightListTable;
+  return std::tuple{TableColumn{"list_of", &T::list_of, false},
+                    TableColumn{"list_first", &T::list_first, false}, TableColumn{"lamp", &T::lamp, false}};
+}
+constexpr auto list_columns(const LampViewTable*) {
+  using T = LampViewTable;
+  return std::tuple{TableColumn{"seen", &T::seen}, TableColumn{"hidden", &T::hidden},
+                    TableColumn{"settled", &T::settled}};
+}
+constexpr auto list_columns(const ReceiverTable*) {
+  using T = ReceiverTable;
+  return std::tuple{TableColumn{"first", &T::first, false},
+                    TableColumn{"patch", &T::patch, false},
+                    TableColumn{"area_until", &T::area_until, false},
+                    TableColumn{"centre", &T::centre},
+                    TableColumn{"normal", &T::normal},
+                    TableColumn{"receiver_of", &T::receiver_of, false}};
+}
+constexpr auto list_columns(const HitTable*) {
+  using T = HitTable;
+  return std::tuple{TableColumn{"patch", &T::patch, false}, TableColumn{"cell", &T::cell, false},
+                    TableColumn{"nothing", &T::nothing}, TableColumn{"back", &T::back},
+                    TableColumn{"buried", &T::buried}};
+}
+
+// Calls visit(name, column, column of each other table) for every column; the tables are of one type.
+template <typename Visit, typename Table, typename... Others>
+void for_each_column(const Visit& visit, Table& table, Others&... others) {
+  const auto call = [&](const auto& column) {
+    visit(column.name, table.*column.member, others.*column.member...);
+  };
+  std::apply([&](const auto&... columns) { (call(columns), ...); }, list_columns(&table));
+}
+// The same for the columns that have a row a row of the table.
+template <typename Visit, typename Table, typename... Others>
+void for_each_row_column(const Visit& visit, Table& table, Others&... others) {
+  const auto call = [&](const auto& column) {
+    if (column.has_rows) visit(column.name, table.*column.member, others.*column.member...);
+  };
+  std::apply([&](const auto&... columns) { (call(columns), ...); }, list_columns(&table));
+}
 
 }  // namespace patchlight

@@ -2,8 +2,8 @@
 // share.
 #pragma once
 
-#include "engine/mesh/quadtree.h"
 #include "engine/base/sampling.h"
+#include "engine/mesh/quadtree.h"
 #include "engine/solve/solve.h"
 
 #include <array>
@@ -210,6 +210,14 @@ inline void split_at_random(PatchTable& leaves, const FaceFrameTable& frames, co
     std::vector<uint32_t> parent;
     leaves = split_leaves(leaves, frames, marks, parent);
   }
+}
+
+// The same in every column.
+template <typename Table>
+bool is_equal(const Table& a, const Table& b) {
+  bool equal = true;
+  for_each_column([&](const char*, const auto& x, const auto& y) { equal &= x == y; }, a, b);
+  return equal;
 }
 
 // The mesh of a scene with all its rounds, and `pass_count` passes.

@@ -15,7 +15,7 @@ constexpr double kUncut = 1e-5;
 
 struct Job {
   SplitPair& split;
-  const BoxTree& tree;
+  const Bvh& tree;
   const FaceTable& faces;
   const PartTable& parts;
   uint32_t part_a, part_b;
@@ -192,7 +192,7 @@ void split_largest(Job& job) {
 
 }  // namespace
 
-void split_pair(SplitPair& split, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
+void split_pair(SplitPair& split, const Bvh& tree, const FaceTable& faces, const PartTable& parts,
                 uint32_t part_a, uint32_t part_b, double exchange, double error, double tolerance,
                 ContourScratch& scratch) {
   split.clear = split.mixed = 0;

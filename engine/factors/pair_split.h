@@ -30,7 +30,7 @@ inline double forecast_samples(double mixed, double error) { return std::pow(mix
 // it saves; `exchange`: that of the pair with nothing between, `error`: the standard error that rays will
 // have to reach, both in lengths squared. Each integral errs by `tolerance`, lengths squared. Memory of
 // `split` is reused.
-void split_pair(SplitPair& split, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
+void split_pair(SplitPair& split, const Bvh& tree, const FaceTable& faces, const PartTable& parts,
                 uint32_t part_a, uint32_t part_b, double exchange, double error, double tolerance,
                 ContourScratch& scratch);
 

@@ -2,13 +2,12 @@
 // them.
 #include "engine/factors/polygon_factors.h"
 
+#include "engine/base/parallel.h"
 #include "engine/factors/contour.h"
 #include "engine/factors/pair_rays.h"
 #include "engine/factors/pair_split.h"
-#include "engine/base/parallel.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace patchlight {
 namespace {
@@ -199,7 +198,7 @@ Answer find_by_rays(TaskScratch& scratch, const Task& task, const FactorScene& s
 }  // namespace
 
 FactorScene make_factor_scene(const FaceTable& faces, size_t polygon_count) {
-  return {make_parts(faces, polygon_count), make_box_tree(faces)};
+  return {make_parts(faces, polygon_count), make_bvh(faces)};
 }
 
 uint64_t forecast_factor_bytes(size_t polygon_count, size_t face_count) {

@@ -29,7 +29,7 @@ struct FactorTable {
 // The scene prepared for it.
 struct FactorScene {
   PartTable parts;
-  BoxTree tree;
+  Bvh tree;
 };
 FactorScene make_factor_scene(const FaceTable& faces, size_t polygon_count);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numeric>
 
 namespace patchlight {
 namespace {
@@ -17,7 +16,7 @@ constexpr uint32_t kTriedMax = 16;
 // The slack of a shaft is at most this share of its narrower end.
 constexpr double kSlackOfEnd = 0.005;
 
-uint32_t make_node(BoxTree& tree, const FaceTable& faces, const std::vector<Vec3>& centre, uint32_t first,
+uint32_t make_node(Bvh& tree, const FaceTable& faces, const std::vector<Vec3>& centre, uint32_t first,
                    uint32_t last) {
   const auto node = static_cast<uint32_t>(tree.first.size());
   Vec3 low(1e30f), high(-1e30f), centre_low(1e30f), centre_high(-1e30f);
@@ -168,8 +167,8 @@ bool hides(const PartTable& parts, uint32_t part, const ShaftEnd& a, const Shaft
 
 }  // namespace
 
-BoxTree make_box_tree(const FaceTable& faces) {
-  BoxTree tree;
+Bvh make_bvh(const FaceTable& faces) {
+  Bvh tree;
   std::vector<Vec3> centre(faces.size());
   for (uint32_t face = 0; face < faces.size(); ++face) {
     for (const Vec3& p : faces.corners[face]) centre[face] += 0.25f * p;
@@ -179,7 +178,7 @@ BoxTree make_box_tree(const FaceTable& faces) {
   return tree;
 }
 
-Sight find_sight(Blockers& blockers, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
+Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, const PartTable& parts,
                  const ShaftEnd& a, const ShaftEnd& b) {
   blockers.count = 0;
   assert(a.hull.size() <= 2 * kHullCornersMax);

@@ -8,7 +8,7 @@
 namespace patchlight {
 
 // Boxes around faces, boxes around boxes: a node's first child follows it, its second is at `second`.
-struct BoxTree {
+struct Bvh {
   std::vector<Vec3> low, high;   // lengths
   std::vector<uint32_t> second;  // kNone: a leaf
   std::vector<uint32_t> first;   // a leaf holds the entries [first, first + count) of face
@@ -16,7 +16,7 @@ struct BoxTree {
   std::vector<uint32_t> face;
 };
 // Of two faces back to back it holds one.
-BoxTree make_box_tree(const FaceTable& faces);
+Bvh make_bvh(const FaceTable& faces);
 
 enum class Sight {
   kClear,   // nothing reaches between the two
@@ -39,7 +39,7 @@ struct Blockers {
   std::array<uint32_t, 8> face;
   size_t count = 0;
 };
-Sight find_sight(Blockers& blockers, const BoxTree& tree, const FaceTable& faces, const PartTable& parts,
+Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, const PartTable& parts,
                  const ShaftEnd& a, const ShaftEnd& b);
 
 }  // namespace patchlight

@@ -1,8 +1,8 @@
 // How a picture sees: points of it to directions, and places to points of it.
 #pragma once
 
-#include "projections.h"
 #include "engine/base/vector.h"
+#include "engine/film/projections.h"
 
 namespace patchlight {
 

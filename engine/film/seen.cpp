@@ -3,8 +3,8 @@
 // the result is the same, bit by bit.
 #include "engine/film/seen.h"
 
-#include "engine/mesh/quadtree.h"
 #include "engine/base/sampling.h"
+#include "engine/mesh/quadtree.h"
 
 #include <bit>
 #include <limits>

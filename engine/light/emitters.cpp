@@ -1,8 +1,8 @@
 // Faces and cells to emitters; a point and an emitter to a form factor.
 #include "engine/light/emitters.h"
 
-#include "engine/light/lambert.h"
 #include "engine/base/sampling.h"
+#include "engine/light/lambert.h"
 
 #include <algorithm>
 #include <span>

@@ -1,9 +1,9 @@
 // Lamps to the lists that polygons aim at.
 #include "engine/light/light_lists.h"
 
-#include "engine/light/emitters.h"
 #include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
+#include "engine/light/emitters.h"
 
 #include <cassert>
 #include <span>

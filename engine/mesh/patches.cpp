@@ -30,15 +30,12 @@ Probe probe_cell(const CellRays& rays, const Surfaces& surfaces) {
   for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
     make_ray_packet(packet, rays, surfaces.frames, tile);
     find_hits(surfaces.tracer, packet, 0xffff);
-    uint32_t back = 0;
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       if (packet.face[k] == kNone) continue;
-      const RayPacket& r = packet.ray;
       ++probe.hit_count;
-      probe.inverse_distance_sum += 1 / std::max(r.far_distance[k], 1e-6f);
-      const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-      if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
+      probe.inverse_distance_sum += 1 / std::max(packet.ray.far_distance[k], 1e-6f);
     }
+    const uint32_t back = find_backs(packet, faces, 0xffff);
     if (back)
       probe.buried_count +=
           static_cast<uint32_t>(std::popcount(find_buried(surfaces, rays.frame, packet.ray, back)));

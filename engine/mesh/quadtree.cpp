@@ -104,13 +104,8 @@ PatchTable make_leaves(const FaceTable& faces, const FaceFrameTable& frames,
     leaves.face_first[f + 1] = leaves.face_first[f] + (1u << 2 * levels[f]);
   }
   const size_t count = leaves.face_first.back();
-  leaves.face.resize(count);
-  leaves.cell.resize(count);
-  leaves.level.resize(count);
-  leaves.area.resize(count);
+  for_each_row_column([&](const char*, auto& column) { column.resize(count); }, leaves);
   leaves.exposed.assign(count, 1);
-  leaves.radiosity.resize(count);
-  leaves.unshot.resize(count);
   for_rows(faces.size(), 64, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const uint32_t face = static_cast<uint32_t>(f);
@@ -214,28 +209,20 @@ PatchTable split_leaves(const PatchTable& leaves, const FaceFrameTable& frames,
   for (size_t row = 0; row < leaves.size(); ++row) first[row + 1] = first[row] + (marks[row] ? 4 : 1);
   const size_t count = first.back();
   PatchTable result;
-  result.face.resize(count);
-  result.cell.resize(count);
-  result.level.resize(count);
-  result.area.resize(count);
-  result.exposed.resize(count);
-  result.radiosity.resize(count);
-  result.unshot.resize(count);
+  for_each_row_column([&](const char*, auto& column) { column.resize(count); }, result);
   parent.resize(count);
   for_rows(leaves.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
-      const uint32_t face = leaves.face[row], level = leaves.level[row] + (marks[row] ? 1u : 0u);
-      assert(level <= kLevelMax);
+      const auto [face, cell, level] = name_cell(leaves, row);
+      assert(!marks[row] || level < kLevelMax);
       for (uint32_t to = first[row]; to < first[row + 1]; ++to) {
-        result.face[to] = face;
-        result.level[to] = static_cast<uint8_t>(level);
-        result.cell[to] =
-            marks[row] ? child_cell(leaves.cell[row], level - 1, to - first[row]) : leaves.cell[row];
-        result.area[to] = marks[row] ? cell_area(frames, face, result.cell[to], level) : leaves.area[row];
-        result.exposed[to] = leaves.exposed[row];
-        result.radiosity[to] = leaves.radiosity[row];
-        result.unshot[to] = leaves.unshot[row];
+        for_each_row_column([&](const char*, const auto& from, auto& column) { column[to] = from[row]; },
+                            leaves, result);
         parent[to] = static_cast<uint32_t>(row);
+        if (!marks[row]) continue;
+        result.level[to] = static_cast<uint8_t>(level + 1);
+        result.cell[to] = child_cell(cell, level, to - first[row]);
+        result.area[to] = cell_area(frames, face, result.cell[to], level + 1);
       }
     }
   });

@@ -20,20 +20,14 @@ void require(bool right, const char* column, size_t row, const char* expected) {
 }
 
 void check_lengths(const FaceTable& faces) {
-  const auto check = [&](const auto& column, const char* name) {
-    if (column.size() != faces.size())
-      throw std::invalid_argument(std::string("faces: ") + name + " has " + std::to_string(column.size()) +
-                                  " rows, normal has " + std::to_string(faces.size()));
-  };
-  check(faces.corners, "corners");
-  check(faces.corner_count, "corner_count");
-  check(faces.emission, "emission");
-  check(faces.reflectance, "reflectance");
-  check(faces.polygon, "polygon");
-  check(faces.surface, "surface");
-  check(faces.twin, "twin");
-  check(faces.patch_size, "patch_size");
-  check(faces.level_min, "level_min");
+  for_each_column(
+      [&](const char* name, const auto& column) {
+        if (column.size() != faces.size())
+          throw std::invalid_argument(std::string("faces: ") + name + " has " +
+                                      std::to_string(column.size()) + " rows, normal has " +
+                                      std::to_string(faces.size()));
+      },
+      faces);
 }
 
 bool is_between(Rgb value, float low, float high) {
@@ -50,7 +44,8 @@ void check_faces(const FaceTable& faces) {
   for (size_t f = 0; f < faces.size(); ++f) {
     for (const Vec3& corner : faces.corners[f])
       for (int k = 0; k < 3; ++k)
-        require(std::abs(corner[k]) <= kTracedCoordinateMax, "corners", f, "finite, and near enough to trace");
+        require(std::abs(corner[k]) <= kTracedCoordinateMax, "corners", f,
+                "finite, and near enough to trace");
     require(faces.corner_count[f] == 3 || faces.corner_count[f] == 4, "corner_count", f, "3 or 4");
     require(std::abs(length(faces.normal[f]) - 1) <= kNormalSlack, "normal", f, "of length 1");
     require(is_between(faces.emission[f], 0, kLargest), "emission", f, "finite, at least 0");

@@ -3,8 +3,8 @@
 // 100,820 faces of furniture, on one core of an AMD EPYC.
 #include "engine/solve/forecast.h"
 
-#include "engine/mesh/cell_rays.h"
 #include "engine/factors/polygon_factors.h"
+#include "engine/mesh/cell_rays.h"
 #include "engine/solve/sizes.h"
 
 #include <algorithm>
@@ -21,10 +21,19 @@ constexpr double kKeptRay = 0.001;   // of a row that is kept, in each pass
 constexpr double kElement = 1.5;     // split, compared and joined
 constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
 
-constexpr double kFaceBytes = 400, kElementBytes = 190, kPatchBytes = 200, kRayBytes = 8;
 constexpr double kPatchesOfRooms = 12'000;  // beside one a face
 // Of the square root of the scene's area: smaller faces of meshes share rows.
 constexpr double kSharedSpan = 0.01;
+
+// Bytes a row, from tables.h; with a face go what Embree and the loader keep of it.
+template <typename Count>
+Count sum_bytes(Count faces, Count patches, Count elements, Count kept_rays) {
+  return 700 * faces + 200 * patches + 190 * elements + 8 * kept_rays;
+}
+
+uint64_t count_kept_rays_a_row(const SolverSettings& settings) {
+  return settings.keep_rows ? make_ray_grid(count_row_rays(settings)).ray_count() : 0;
+}
 
 double cube_of_depth(const FaceTable& faces) {
   return std::pow(std::log2(static_cast<double>(faces.size()) + 1), 3);
@@ -95,8 +104,8 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, 
   forecast.seconds = 1e-6 * (row_rays * row_ray * (1 + kAimedShare) +
                              lamp_rays * (kLampRay + kLampRayOfDepth * depth) + forecast.elements * kElement +
                              later_passes * row_rays * (settings.keep_rows ? kKeptRay : row_ray));
-  forecast.bytes = face_count * kFaceBytes + forecast.elements * kElementBytes +
-                   forecast.patches * kPatchBytes + (settings.keep_rows ? row_rays * kRayBytes : 0);
+  forecast.bytes = sum_bytes<double>(face_count, forecast.patches, forecast.elements,
+                                     forecast.rows * static_cast<double>(count_kept_rays_a_row(settings)));
   return forecast;
 }
 
@@ -117,9 +126,9 @@ double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& set
 
 double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
                                  uint64_t starting_patches) {
-  constexpr double kShotsAPatch = 5, kElement = 1.5e-7;
+  constexpr double kShotsAPatch = 5, kShotElement = 1.5e-7;
   const Forecast mesh = forecast_solve(faces, settings, starting_patches);
-  return kShotsAPatch * mesh.patches * mesh.elements * kElement;
+  return kShotsAPatch * mesh.patches * mesh.elements * kShotElement;
 }
 
 double forecast_film_seconds(const FaceTable& faces, double pixels) {
@@ -127,16 +136,13 @@ double forecast_film_seconds(const FaceTable& faces, double pixels) {
 }
 
 uint64_t forecast_bytes(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
-  // Bytes a row, from tables.h; the largest moment is a split, when the rows of the patches or, later, the
-  // elements exist twice, or the making of the shared corners.
-  constexpr uint64_t kFace = 700, kElement = 190, kPatch = 200;
   const uint64_t elements = std::max(starting_patches, settings.patch_count_max);
   const uint64_t patches = count_transport_patches(faces, settings);
-  const uint64_t row_bytes =
-      settings.keep_rows ? 8 * uint64_t{make_ray_grid(count_row_rays(settings)).ray_count()} : 0;
-  const uint64_t rows = row_bytes * patches;
-  return kFace * faces.size() + kPatch * patches +
-         std::max(2 * rows + kElement * std::max(starting_patches, patches), rows + kElement * elements);
+  const uint64_t rays = count_kept_rays_a_row(settings) * patches;
+  // The largest moment is a split, when the rows of the patches exist twice, or the making of the shared
+  // corners of the elements.
+  return std::max(sum_bytes<uint64_t>(faces.size(), patches, std::max(starting_patches, patches), 2 * rays),
+                  sum_bytes<uint64_t>(faces.size(), patches, elements, rays));
 }
 
 }  // namespace patchlight

@@ -1,8 +1,8 @@
 // Rays that leave, and the edges that they pass.
 #include "engine/solve/leaks.h"
 
-#include "engine/mesh/cell_rays.h"
 #include "engine/base/parallel.h"
+#include "engine/mesh/cell_rays.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,10 @@
 // Where the power went: measured by the rays that patches send, against what patches say that they received.
-#include "engine/mesh/cell_rays.h"
 #include "engine/base/parallel.h"
+#include "engine/mesh/cell_rays.h"
 #include "engine/solve/solve.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace patchlight {
 namespace {
@@ -23,15 +24,8 @@ Shares find_emission_shares(const CellRays& rays, const Surfaces& surfaces) {
     for (size_t tile = begin; tile < end; ++tile) {
       make_ray_packet(packet, rays, surfaces.frames, static_cast<uint32_t>(tile));
       find_hits(surfaces.tracer, packet, 0xffff);
-      for (uint32_t k = 0; k < kPacketSize; ++k) {
-        const RayPacket& r = packet.ray;
-        if (packet.face[k] == kNone) {
-          ++nothing[tile];
-        } else if (dot(Vec3(r.direction_x[k], r.direction_y[k], r.direction_z[k]),
-                       surfaces.faces.normal[packet.face[k]]) >= 0) {
-          ++back[tile];
-        }
-      }
+      for (const uint32_t face : packet.face) nothing[tile] += face == kNone;
+      back[tile] = static_cast<uint32_t>(std::popcount(find_backs(packet, surfaces.faces, 0xffff)));
     }
   });
   Shares shares;

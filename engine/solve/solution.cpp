@@ -102,30 +102,19 @@ uint64_t find_solution_hash(const Solution& s) {
 }
 
 uint64_t count_bytes(const Solution& s) {
-  const auto bytes = [](const auto&... column) {
-    return ((column.capacity() * sizeof(column[0])) + ... + 0);
+  uint64_t bytes = 0;
+  const auto add_column = [&](const char*, const auto& column) {
+    bytes += column.capacity() * sizeof(column[0]);
   };
-  const auto patch_bytes = [&](const PatchTable& t) {
-    return bytes(t.face, t.cell, t.level, t.area, t.exposed, t.radiosity, t.unshot, t.face_first);
-  };
-  const auto vertex_bytes = [&](const VertexTable& t) {
-    return bytes(t.leaf_vertex, t.vertex_first, t.vertex_leaf, t.hanging_between, t.hanging_order, t.border);
-  };
-  if (!s.surfaces) return 0;  // not made yet
-  const FaceFrameTable& f = s.surfaces->frames;
-  return bytes(f.origin, f.edge_u, f.edge_v, f.twist, f.dual_u, f.dual_v, f.triangle, f.affine,
-               s.surfaces->links.edge, s.surfaces->links.corner, s.surfaces->smooth_links.edge,
-               s.surfaces->smooth_links.corner, s.mesh.element_first, s.mesh.element_patch,
-               s.transport.light_lists.list_of, s.transport.light_lists.list_first,
-               s.transport.light_lists.lamp, s.transport.receivers.first, s.transport.receivers.patch,
-               s.transport.receivers.area_until, s.transport.receivers.centre, s.transport.receivers.normal,
-               s.transport.receivers.receiver_of, s.transport.views.seen, s.transport.views.hidden,
-               s.transport.views.settled, s.transport.hits.patch, s.transport.hits.cell,
-               s.transport.hits.nothing, s.transport.hits.back, s.transport.hits.buried, s.light.direct,
-               s.light.direct_error, s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.coarse,
-               s.light.coarse_error, s.mesh.fresh, s.mesh.reasons) +
-         patch_bytes(s.mesh.patches) + patch_bytes(s.mesh.elements) + vertex_bytes(s.mesh.patch_vertices) +
-         vertex_bytes(s.mesh.element_vertices);
+  const auto add = [&](const auto&... tables) { (for_each_column(add_column, tables), ...); };
+  const auto add_columns = [&](const auto&... columns) { (add_column("", columns), ...); };
+  if (s.surfaces) add(s.surfaces->frames, s.surfaces->links, s.surfaces->smooth_links);
+  add(s.mesh.patches, s.mesh.elements, s.mesh.patch_vertices, s.mesh.element_vertices,
+      s.transport.light_lists, s.transport.views, s.transport.receivers, s.transport.hits);
+  add_columns(s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh, s.light.sharp,
+              s.light.smooth, s.light.smooth_added, s.light.direct, s.light.direct_error, s.light.coarse,
+              s.light.coarse_error);
+  return bytes;
 }
 
 }  // namespace patchlight

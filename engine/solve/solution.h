@@ -2,11 +2,10 @@
 #pragma once
 
 #include "engine/base/parallel.h"
-#include "engine/factors/polygon_factors.h"
-#include "engine/transport/rows.h"
-#include "engine/solve/solve.h"
 #include "engine/base/stopwatch.h"
 #include "engine/mesh/vertices.h"
+#include "engine/solve/solve.h"
+#include "engine/transport/rows.h"
 
 namespace patchlight {
 
@@ -17,9 +16,6 @@ constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 0, .border_steps
 
 // The rows of the patches, for kernels that gather.
 Rows get_rows(const Solution& solution);
-
-// Form factors between the elements, each a polygon of its own.
-FactorTable find_element_factors(const Solution& solution);
 
 // The patches as a surface.
 inline LeafSurface patch_surface(const Solution& s) {

@@ -1,6 +1,6 @@
 // The solver as its callers see it.
 //
-//   auto surfaces = make_surfaces(faces);               // surfaces.h; throws where faces are wrong
+//   auto surfaces = make_surfaces(faces);               // mesh/surfaces.h; throws where faces are wrong
 //   Solution solution = make_solution(surfaces, settings);
 //   while (refine(solution)) {                          // rounds, until nothing splits
 //   }
@@ -13,10 +13,10 @@
 // solvers.h. Pictures: film.h.
 #pragma once
 
-#include "engine/mesh/mesh.h"
 #include "engine/base/parallel.h"
-#include "engine/settings.h"
+#include "engine/mesh/mesh.h"
 #include "engine/mesh/surfaces.h"
+#include "engine/settings.h"
 
 #include <optional>
 

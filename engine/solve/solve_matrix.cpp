@@ -4,13 +4,12 @@
 // Factors between the elements come from polygon_factors.h: exact where nothing is in between, and by no
 // route that the passes take, which makes it a check on them. Time and memory grow with the square of the
 // number of elements, and the solve with its cube.
+#include "engine/solve/solve_matrix.h"
+
 #include "engine/base/linear_system.h"
-#include "engine/factors/polygon_factors.h"
 #include "engine/solve/solution.h"
-#include "engine/solve/solvers.h"
 
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
 
 namespace patchlight {
@@ -22,16 +21,12 @@ FaceTable make_element_faces(const PatchTable& elements, const FaceTable& faces,
   FaceTable cells;
   for (uint32_t row = 0; row < elements.size(); ++row) {
     const uint32_t face = elements.face[row];
-    cells.corners.push_back(cell_corners(frames, face, elements.cell[row], elements.level[row]));
-    cells.corner_count.push_back(faces.corner_count[face]);
-    cells.normal.push_back(faces.normal[face]);
-    cells.emission.push_back(faces.emission[face]);
-    cells.reflectance.push_back(faces.reflectance[face]);
-    cells.polygon.push_back(row);
-    cells.surface.push_back(kNone);
-    cells.twin.push_back(kNone);
-    cells.patch_size.push_back(0);
-    cells.level_min.push_back(0);
+    for_each_column([&](const char*, const auto& from, auto& to) { to.push_back(from[face]); }, faces, cells);
+    cells.corners.back() = cell_corners(frames, face, elements.cell[row], elements.level[row]);
+    cells.polygon.back() = row;
+    cells.surface.back() = cells.twin.back() = kNone;
+    cells.patch_size.back() = 0;
+    cells.level_min.back() = 0;
   }
   return cells;
 }

@@ -1,12 +1,12 @@
 // Faces to the meshes that a solution stands on: starting meshes, rounds of refinement, the final mesh.
 #include "engine/light/direct.h"
-#include "engine/transport/gather.h"
 #include "engine/light/light_lists.h"
 #include "engine/mesh/patches.h"
-#include "engine/transport/receivers.h"
 #include "engine/mesh/refine.h"
 #include "engine/solve/sizes.h"
 #include "engine/solve/solution.h"
+#include "engine/transport/gather.h"
+#include "engine/transport/receivers.h"
 
 #include <algorithm>
 #include <atomic>
@@ -178,9 +178,7 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
   s.mesh.elements = split_leaves(s.mesh.elements, s.surfaces->frames, marks, parent);
   inherit(s.light.direct, parent);
   inherit(s.light.direct_error, parent);
-  inherit(s.transport.views.seen, parent);
-  inherit(s.transport.views.hidden, parent);
-  inherit(s.transport.views.settled, parent);
+  for_each_row_column([&](const char*, auto& column) { inherit(column, parent); }, s.transport.views);
   inherit(s.mesh.reasons, parent);
   s.mesh.fresh.clear();
   for (uint32_t row = 0; row < parent.size(); ++row)

@@ -4,11 +4,9 @@
 // receive of the radiosity that the pass before added (Goral, Torrance, Greenberg, Battaile: Modeling the
 // Interaction of Light Between Diffuse Surfaces, 1984; the Neumann series of Kajiya: The Rendering Equation,
 // 1986).
-#include "engine/transport/gather.h"
 #include "engine/solve/solution.h"
+#include "engine/transport/gather.h"
 #include "engine/transport/sources.h"
-
-#include <algorithm>
 
 namespace patchlight {
 namespace {

@@ -2,12 +2,10 @@
 // all elements, again and again, until little is left (Cohen, Chen, Wallace, Greenberg: A Progressive
 // Refinement Approach to Fast Radiosity Image Generation, 1988). It ends at the same B as the passes do, by
 // another way: after few shots the picture is not one of so many bounces, but it is lit.
+#include "engine/solve/solve_shooting.h"
+
 #include "engine/light/shoot.h"
 #include "engine/solve/solution.h"
-#include "engine/solve/solvers.h"
-
-#include <algorithm>
-#include <cassert>
 
 namespace patchlight {
 namespace {

@@ -2,6 +2,8 @@
 #include "engine/solve/solvers.h"
 
 #include "engine/solve/forecast.h"
+#include "engine/solve/solve_matrix.h"
+#include "engine/solve/solve_shooting.h"
 
 namespace patchlight {
 namespace {

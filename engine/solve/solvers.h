@@ -1,4 +1,4 @@
-// The ways to solve a frozen mesh: one row a solver, one file solve_<name>.cpp a row.
+// The ways to solve a frozen mesh: one row a solver, one pair of files solve_<name> a row.
 #pragma once
 
 #include "engine/solve/solve.h"
@@ -28,16 +28,5 @@ struct Solver {
 
 // The default first.
 std::span<const Solver> solvers();
-
-// One shot of the solver `shooting`: the patch with the most unshot power sends it to all elements. Unshot
-// columns hold what was received and not sent on.
-const PassReport& advance_shot(Solution& solution);
-// True once less than the share `until` of what all shots brought is left unshot.
-bool is_shot(const Solution& solution);
-
-// The solver `matrix`: the converged solution on the frozen mesh at once. Throws std::domain_error where
-// light never dies, as in a closed room of reflectance 1.
-const PassReport& solve_matrix(Solution& solution);
-bool is_solved(const Solution& solution);
 
 }  // namespace patchlight

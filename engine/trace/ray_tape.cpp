@@ -1,4 +1,4 @@
-// Packets of rays to an even sample of them, and back. What calls Embree itself is in tracer.cpp.
+// Packets of rays to an even sample of them, and back.
 #include "engine/trace/ray_tape.h"
 
 #include <algorithm>
@@ -39,6 +39,11 @@ void keep_packet(TapeTrack& track, const RayPacket& packet, uint32_t active) {
   track.active.push_back(active);
 }
 
+void RayTape::see_nearest(const RayPacket& packet, uint32_t active) { keep_packet(nearest, packet, active); }
+void RayTape::see_visibility(const RayPacket& packet, uint32_t active) {
+  keep_packet(visibility, packet, active);
+}
+
 uint64_t count_kept_rays(const TapeTrack& track) {
   uint64_t count = 0;
   for (const uint32_t active : track.active) count += static_cast<uint64_t>(std::popcount(active));
@@ -62,6 +67,22 @@ Replay make_replay(const TapeTrack& track) {
                                packet.ray.far_distance + kPacketSize);
   }
   return replay;
+}
+
+void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {
+  for (size_t p = 0; p < replay.packets.size(); ++p) {
+    put_back(replay, p);
+    trace_blocked(tracer, replay.lanes[p].valid, replay.packets[p].ray, order);
+  }
+}
+
+void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order) {
+  for (size_t p = 0; p < replay.packets.size(); ++p) {
+    put_back(replay, p);
+    // As Embree's documentation asks for: nothing is hit yet.
+    std::fill_n(replay.packets[p].geometry, kPacketSize, ~0u);
+    trace_nearest(tracer, replay.lanes[p].valid, replay.packets[p], order);
+  }
 }
 
 void replay_find_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {

@@ -22,18 +22,17 @@ struct TapeTrack {
   uint64_t stride = 1;                       // one run of so many is kept
 };
 
-struct RayTape {
+struct RayTape final : RayObserver {
   TapeTrack visibility;  // find_blocked
   TapeTrack nearest;     // find_hits
+  void see_nearest(const RayPacket& packet, uint32_t active) override;
+  void see_visibility(const RayPacket& packet, uint32_t active) override;
 };
 
 // Counts a packet, and keeps it if it is its turn.
 void keep_packet(TapeTrack& track, const RayPacket& packet, uint32_t active);
 // Rays of the packets that were kept.
 uint64_t count_kept_rays(const TapeTrack& track);
-
-// From here on the tracer's packets go to the tape; null: no longer. On one thread only.
-void record_rays(const Tracer& tracer, RayTape* tape);
 
 // The kept packets, ready for Embree: nothing but its own call remains to be done.
 struct Replay {

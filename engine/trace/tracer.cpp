@@ -4,7 +4,6 @@
 #include "engine/trace/tracer.h"
 
 #include "engine/base/parallel.h"
-#include "engine/trace/ray_tape.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -12,9 +11,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -28,7 +25,7 @@ struct TracerState {
   std::vector<Vec3> normal;          // a row a face
   std::vector<uint32_t> twin;        // a row a face
   std::string error;
-  RayTape* tape = nullptr;  // see ray_tape.h
+  RayObserver* observer = nullptr;
 };
 
 namespace {
@@ -90,22 +87,9 @@ void add_geometry(TracerState& state, const FaceTable& faces, RTCGeometryType ty
   rtcReleaseGeometry(geometry);
 }
 
-// Embree's own two calls: the only lines in which its versions differ.
 #if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
 RTCRayQueryFlags find_flags(RayOrder order) {
   return order == RayOrder::kCoherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-}
-void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = find_flags(order);
-  rtcIntersect16(valid, tracer.state->scene, reinterpret_cast<RTCRayHit16*>(&packet), &arguments);
-}
-void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = find_flags(order);
-  rtcOccluded16(valid, tracer.state->scene, reinterpret_cast<RTCRay16*>(&packet), &arguments);
 }
 #else
 RTCIntersectContext make_context(RayOrder order) {
@@ -114,14 +98,6 @@ RTCIntersectContext make_context(RayOrder order) {
   context.flags = order == RayOrder::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
                                                : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
-}
-void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
-  RTCIntersectContext context = make_context(order);
-  rtcIntersect16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
-}
-void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
-  RTCIntersectContext context = make_context(order);
-  rtcOccluded16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRay16*>(&packet));
 }
 #endif
 
@@ -146,8 +122,33 @@ Tracer make_tracer(const FaceTable& faces) {
   return tracer;
 }
 
+// The only lines in which Embree's versions differ, with those above.
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = find_flags(order);
+  rtcIntersect16(valid, tracer.state->scene, reinterpret_cast<RTCRayHit16*>(&packet), &arguments);
+}
+void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = find_flags(order);
+  rtcOccluded16(valid, tracer.state->scene, reinterpret_cast<RTCRay16*>(&packet), &arguments);
+}
+#else
+void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order) {
+  RTCIntersectContext context = make_context(order);
+  rtcIntersect16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
+}
+void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order) {
+  RTCIntersectContext context = make_context(order);
+  rtcOccluded16(valid, tracer.state->scene, &context, reinterpret_cast<RTCRay16*>(&packet));
+}
+#endif
+
 void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
-  if (tracer.state->tape) keep_packet(tracer.state->tape->nearest, packet.ray, active);
+  if (tracer.state->observer) tracer.state->observer->see_nearest(packet.ray, active);
   alignas(64) int valid[16];
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k) {
@@ -169,7 +170,7 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
 }
 
 uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, RayOrder order) {
-  if (tracer.state->tape) keep_packet(tracer.state->tape->visibility, packet, active);
+  if (tracer.state->observer) tracer.state->observer->see_visibility(packet, active);
   alignas(64) int valid[16];
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k)
@@ -180,24 +181,7 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, 
   return blocked & active;
 }
 
-void record_rays(const Tracer& tracer, RayTape* tape) { tracer.state->tape = tape; }
-
-void replay_blocked(const Tracer& tracer, Replay& replay, RayOrder order) {
-  for (size_t p = 0; p < replay.packets.size(); ++p) {
-    RayPacket& packet = replay.packets[p].ray;
-    std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.far_distance);
-    trace_blocked(tracer, replay.lanes[p].valid, packet, order);
-  }
-}
-
-void replay_nearest(const Tracer& tracer, Replay& replay, RayOrder order) {
-  for (size_t p = 0; p < replay.packets.size(); ++p) {
-    HitPacket& packet = replay.packets[p];
-    std::copy_n(&replay.far_distance[p * kPacketSize], kPacketSize, packet.ray.far_distance);
-    std::fill_n(packet.geometry, kPacketSize, RTC_INVALID_GEOMETRY_ID);
-    trace_nearest(tracer, replay.lanes[p].valid, packet, order);
-  }
-}
+void observe_rays(const Tracer& tracer, RayObserver* observer) { tracer.state->observer = observer; }
 
 const char* tracer_version() { return "Embree " RTC_VERSION_STRING; }
 

@@ -50,6 +50,22 @@ enum class RayOrder { kCoherent, kIncoherent };
 uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active,
                       RayOrder order = RayOrder::kCoherent);
 
+// Told of every packet that find_hits and find_blocked are asked for. On one thread only.
+struct RayObserver {
+  virtual void see_nearest(const RayPacket& packet, uint32_t active) = 0;
+  virtual void see_visibility(const RayPacket& packet, uint32_t active) = 0;
+
+ protected:
+  ~RayObserver() = default;
+};
+// Null: nobody any longer.
+void observe_rays(const Tracer& tracer, RayObserver* observer);
+
+// Embree's own calls and nothing else, to measure how long they take. valid: -1 for a ray that counts, 0 for
+// others, aligned to 64 bytes; all columns that Embree reads must be set.
+void trace_nearest(const Tracer& tracer, const int* valid, HitPacket& packet, RayOrder order);
+void trace_blocked(const Tracer& tracer, const int* valid, RayPacket& packet, RayOrder order);
+
 // The name and version of the library, for --version.
 const char* tracer_version();
 

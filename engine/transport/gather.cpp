@@ -1,8 +1,8 @@
 // What was sent to what is received.
 #include "engine/transport/gather.h"
 
-#include "engine/light/light_lists.h"
 #include "engine/base/parallel.h"
+#include "engine/light/light_lists.h"
 #include "engine/mesh/quadtree.h"
 
 #include <algorithm>

@@ -7,6 +7,7 @@ set(ENGINE_TEST_SOURCES
   engine/mesh/patches.cpp
   engine/mesh/quadtree.cpp
   engine/mesh/refine.cpp
+  engine/mesh/surfaces.cpp
   engine/mesh/vertices.cpp
   engine/factors/clip.cpp
   engine/factors/contour.cpp

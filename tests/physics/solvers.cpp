@@ -2,7 +2,8 @@
 #include "engine/solve/solvers.h"
 
 #include "engine/factors/polygon_factors.h"
-#include "engine/solve/solution.h"
+#include "engine/solve/solve_matrix.h"
+#include "engine/solve/solve_shooting.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

@@ -117,15 +117,15 @@ Bench make_bench(const std::string& path, uint64_t max_patches) {
 Tapes record_tapes(Scratch& scratch, const Bench& b) {
   Tapes tapes;
   const WorkersScope scope(std::make_shared<Workers>(1));
-  record_rays(b.surfaces->tracer, &tapes.direct);
+  observe_rays(b.surfaces->tracer, &tapes.direct);
   direct_light(scratch, b);
-  record_rays(b.surfaces->tracer, &tapes.rows);
+  observe_rays(b.surfaces->tracer, &tapes.rows);
   rows_of_patches(scratch, b);
-  record_rays(b.surfaces->tracer, &tapes.aimed);
+  observe_rays(b.surfaces->tracer, &tapes.aimed);
   second_pass(scratch, b);
-  record_rays(b.surfaces->tracer, &tapes.film);
+  observe_rays(b.surfaces->tracer, &tapes.film);
   make_film(make_scenery(b.passed), b.view, {});
-  record_rays(b.surfaces->tracer, nullptr);
+  observe_rays(b.surfaces->tracer, nullptr);
   return tapes;
 }
 

@@ -86,11 +86,11 @@ Json solve_on_tape(const std::string& path, uint64_t max_patches) {
   const auto surfaces = make_surfaces(scene.faces);
   const Tracer& tracer = surfaces->tracer;
   RayTape tape;
-  record_rays(tracer, &tape);
+  observe_rays(tracer, &tape);
   const Times begin = read_clocks();
   const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;
-  record_rays(tracer, nullptr);
+  observe_rays(tracer, nullptr);
   const double bare = find_bare_seconds(tracer, tape.visibility, replay_blocked) +
                       find_bare_seconds(tracer, tape.nearest, replay_nearest);
   Json result = {{"visibility_rays", tape.visibility.ray_count},

@@ -1,8 +1,8 @@
 // The contour integral: closed forms, limits, and Lambert's formula as the other method.
 #include "engine/factors/contour.h"
 
-#include "engine/light/lambert.h"
 #include "engine/base/sobol.h"
+#include "engine/light/lambert.h"
 
 #include <doctest/doctest.h>
 

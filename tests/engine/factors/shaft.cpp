@@ -22,7 +22,7 @@ Sight find_sight_past(const std::vector<std::vector<Vec3>>& others) {
     ends[part] = {part, {hull.begin(), hull.end()}};
   }
   Blockers blockers;
-  const BoxTree tree = make_box_tree(faces);
+  const Bvh tree = make_bvh(faces);
   const Sight sight = find_sight(blockers, tree, faces, parts, ends[0], ends[1]);
   CHECK((find_sight(blockers, tree, faces, parts, ends[1], ends[0]) == sight));
   return sight;

@@ -1,8 +1,8 @@
 #include "engine/light/direct.h"
 
-#include "engine/mesh/face_links.h"
 #include "engine/light/lambert.h"
 #include "engine/light/light_lists.h"
+#include "engine/mesh/face_links.h"
 #include "engine/transport/receivers.h"
 #include "engine/transport/rows.h"
 #include "tests/scenes.h"

@@ -1,7 +1,7 @@
 #include "engine/mesh/quadtree.h"
 
-#include "engine/mesh/face_links.h"
 #include "engine/base/sampling.h"
+#include "engine/mesh/face_links.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

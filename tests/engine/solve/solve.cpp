@@ -1,10 +1,10 @@
 #include "engine/solve/solve.h"
 
-#include "engine/solve/forecast.h"
 #include "engine/base/parallel.h"
 #include "engine/mesh/quadtree.h"
-#include "engine/solve/sizes.h"
 #include "engine/mesh/vertices.h"
+#include "engine/solve/forecast.h"
+#include "engine/solve/sizes.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

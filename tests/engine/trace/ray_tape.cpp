@@ -39,10 +39,10 @@ TEST_CASE("ray_tape: bare Embree answers as the engine's own functions do, as of
   }
   RayPacket shadow = rays.ray;
   RayTape tape;
-  record_rays(tracer, &tape);
+  observe_rays(tracer, &tape);
   CHECK(find_blocked(tracer, shadow, 0xff) == 0xaa);
   find_hits(tracer, rays, 0xff);
-  record_rays(tracer, nullptr);
+  observe_rays(tracer, nullptr);
   find_hits(tracer, rays, 0xff);
   CHECK(tape.visibility.ray_count == 8);
   CHECK(tape.nearest.ray_count == 8);

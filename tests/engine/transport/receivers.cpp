@@ -2,8 +2,8 @@
 
 #include "engine/base/parallel.h"
 #include "engine/mesh/patches.h"
-#include "engine/transport/rows.h"
 #include "engine/solve/solve.h"
+#include "engine/transport/rows.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>

@@ -298,11 +298,7 @@ TEST_CASE("rows: what is moved and cast anew after a split is what casting the s
     cast_rows(hits, patches.exposed, fresh, casters, keep);
     const std::vector<float> exposed = patches.exposed;
     cast_rows(anew, patches.exposed, all_rows(receivers.size()), casters, keep);
-    CHECK(hits.patch == anew.patch);
-    CHECK(hits.cell == anew.cell);
-    CHECK(hits.nothing == anew.nothing);
-    CHECK(hits.back == anew.back);
-    CHECK(hits.buried == anew.buried);
+    CHECK(is_equal(hits, anew));
     CHECK(exposed == patches.exposed);
   }
 }

@@ -1,5 +1,5 @@
 // The table of projections.
-#include "projections.h"
+#include "engine/film/projections.h"
 
 #include "engine/film/lens.h"
 
