@@ -117,9 +117,9 @@ double forecast_matrix_seconds(const FaceTable& faces, const SolverSettings& set
 
 double forecast_shooting_seconds(const FaceTable& faces, const SolverSettings& settings,
                                  uint64_t starting_patches) {
-  constexpr double kShotsAPatch = 5, kElement = 1.5e-7;
+  constexpr double kShotsAPatch = 5, kShotElement = 1.5e-7;
   const Forecast mesh = forecast_solve(faces, settings, starting_patches);
-  return kShotsAPatch * mesh.patches * mesh.elements * kElement;
+  return kShotsAPatch * mesh.patches * mesh.elements * kShotElement;
 }
 
 double forecast_film_seconds(const FaceTable& faces, double pixels) {

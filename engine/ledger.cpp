@@ -20,7 +20,7 @@ struct Sender {
 // Where a sender's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
 Shares find_emission_shares(const Sender& sender, uint32_t rays, const FaceTable& faces,
                             const FaceFrameTable& frames, const Tracer& tracer, uint64_t seed) {
-  const auto [face, cell, level] = sender;
+  const uint32_t face = sender.face, cell = sender.cell, level = sender.level;
   const RowGrid grid = make_row_grid(rays);
   const Frame frame = make_frame(faces.normal[face]);
   const uint64_t key = make_row_key(seed, face, cell, level, kRowEmission);

@@ -38,10 +38,11 @@ static_assert(offsetof(RayPacket, near_distance) == offsetof(RTCRay16, tnear));
 static_assert(offsetof(RayPacket, direction_x) == offsetof(RTCRay16, dir_x));
 static_assert(offsetof(RayPacket, far_distance) == offsetof(RTCRay16, tfar));
 static_assert(offsetof(RayPacket, mask) == offsetof(RTCRay16, mask));
-static_assert(sizeof(HitPacket) == sizeof(RTCRayHit16));
+static_assert(sizeof(HitPacket) >= sizeof(RTCRayHit16));
 static_assert(offsetof(HitPacket, u) == offsetof(RTCRayHit16, hit.u));
 static_assert(offsetof(HitPacket, face) == offsetof(RTCRayHit16, hit.primID));
 static_assert(offsetof(HitPacket, geometry) == offsetof(RTCRayHit16, hit.geomID));
+static_assert(offsetof(HitPacket, instance) == offsetof(RTCRayHit16, hit.instID));
 
 void keep_error(void* pointer, RTCError, const char* text) {
   auto* state = static_cast<TracerState*>(pointer);
@@ -148,7 +149,8 @@ void find_hits(const Tracer& tracer, HitPacket& packet, uint32_t active) {
   expand_mask(active, valid);
   for (uint32_t k = 0; k < 16; ++k) {
     packet.ray.time[k] = 0, packet.ray.mask[k] = ~0u, packet.ray.id[k] = k, packet.ray.flags[k] = 0;
-    packet.geometry[k] = packet.face[k] = packet.instance[k] = RTC_INVALID_GEOMETRY_ID;
+    packet.geometry[k] = packet.face[k] = packet.instance[k] = packet.instance_primitive[k] =
+        RTC_INVALID_GEOMETRY_ID;
   }
   trace_nearest(tracer, valid, packet, RayOrder::kCoherent);
   for (uint32_t k = 0; k < 16; ++k) {

@@ -28,6 +28,7 @@ struct alignas(64) HitPacket {
   uint32_t face[16];  // kNone: nothing hit
   uint32_t geometry[16];
   uint32_t instance[16];
+  uint32_t instance_primitive[16];  // Embree 4.3 and later; older ones end before it
 };
 
 struct TracerState;
