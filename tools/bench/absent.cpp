@@ -5,9 +5,10 @@
 namespace patchlight {
 
 int bench(const Options&, Talk&) {
-  throw UserError("usage",
-                  "bench: this build leaves it out; with Google Benchmark installed (Debian: libbenchmark-dev), "
-                  "cmake -DPATCHLIGHT_BENCH=ON and building again put it in");
+  throw UserError(
+      "usage",
+      "bench: this build leaves it out; with Google Benchmark installed (Debian: libbenchmark-dev), "
+      "cmake -DPATCHLIGHT_BENCH=ON and building again put it in");
 }
 
 }  // namespace patchlight
