@@ -1,6 +1,7 @@
 // Fuzz target: any bytes as an expression, with a few variables. It has a finite value, or an error in its
 // text.
 #include "dsl/expression.h"
+
 #include "dsl/variables.h"
 #include "engine/vector.h"
 
