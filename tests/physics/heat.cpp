@@ -62,8 +62,8 @@ TEST_CASE("at one temperature no net heat flows, whatever the emissivities") {
       "  bright: {temperature: 320, emissivity: 0.2}\nobjects:\n"
       "  - {id: room, room: {size: [2, 1, 3]}, material: dull}\n"
       "  - {id: box, box: {size: [0.5, 0.5, 0.5], at: [0.5, 0.2, 1]}, material: bright}\n");
-  // Everything emits, so that rows see all of it and sum to 1. Aimed rays of pass 2, a tenth of all heat here,
-  // err by about 1 / sqrt(64 rays times some hundred rows): 1 % of that tenth.
+  // Everything emits, so that rows see all of it and sum to 1. Aimed rays of pass 2, a tenth of all heat
+  // here, err by about 1 / sqrt(64 rays times some hundred rows): 1 % of that tenth.
   for (size_t object = 0; object < 2; ++object)
     CHECK(std::abs(find_net_power(power, object).g) <= 1e-3 * power.emitted[object].g);
 }

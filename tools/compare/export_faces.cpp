@@ -1,5 +1,6 @@
-// A scene's faces and first camera as JSON on standard output, for programs that render the same scene by other means.
-// Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1; two_sided faces stand for both sides.
+// A scene's faces and first camera as JSON on standard output, for programs that render the same scene by
+// other means. Points are in engine lengths, emission is radiosity (W/m2), reflectance 0..1; two_sided faces
+// stand for both sides.
 #include "dsl/load.h"
 #include "tools/json.h"
 
@@ -22,7 +23,8 @@ nlohmann::json make_export(const Scene& scene) {
     const uint32_t twin = scene.faces.twin[f];
     if (twin != kNone && twin < f) continue;
     nlohmann::json corners = nlohmann::json::array();
-    for (size_t k = 0; k < scene.faces.corner_count[f]; ++k) corners.push_back(triple(scene.faces.corners[f][k]));
+    for (size_t k = 0; k < scene.faces.corner_count[f]; ++k)
+      corners.push_back(triple(scene.faces.corners[f][k]));
     faces.push_back({{"corners", corners},
                      {"emission", triple(scene.faces.emission[f])},
                      {"reflectance", triple(scene.faces.reflectance[f])},
@@ -50,7 +52,8 @@ int main(int argc, char** argv) {
     std::vector<Diagnostic> warnings;
     fmt::print("{}\n", make_export(load_scene(argv[1], warnings)).dump());
   } catch (const UserError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics) fmt::print(stderr, "{}", format_diagnostic(diagnostic));
+    for (const Diagnostic& diagnostic : error.diagnostics)
+      fmt::print(stderr, "{}", format_diagnostic(diagnostic));
     return exit_code(error.diagnostics.front().slug);
   }
   return 0;
