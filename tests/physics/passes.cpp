@@ -1,7 +1,7 @@
 // Passes against other ways to the same answer: a dense solution, symmetry, other seeds, other threads, other
 // places.
-#include "engine/solve/forecast.h"
 #include "engine/base/parallel.h"
+#include "engine/solve/forecast.h"
 #include "engine/solve/sizes.h"
 #include "tests/scenes.h"
 

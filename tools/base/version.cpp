@@ -3,8 +3,8 @@
 #include "tools/base/version.h"
 
 #include "engine/base/parallel.h"
-#include "engine/trace/tracer.h"
 #include "engine/base/vector.h"
+#include "engine/trace/tracer.h"
 
 #include <fmt/format.h>
 

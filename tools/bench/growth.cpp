@@ -1,6 +1,6 @@
 // One scene, finer and finer, to times and bytes, and to the power of the number of patches that they follow.
-#include "engine/solve/forecast.h"
 #include "engine/base/parallel.h"
+#include "engine/solve/forecast.h"
 #include "engine/solve/sizes.h"
 #include "tools/base/format.h"
 #include "tools/base/memory.h"

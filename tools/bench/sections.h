@@ -22,6 +22,10 @@ struct BenchOptions {
   uint64_t max_memory = ~uint64_t{0};   // bytes: growth stops before
 };
 
+// run_sections.cpp: measures, prints and writes the sections that were asked for; returns the exit code. In
+// builds without the benchmark library it throws UserError (usage) that says how to get one with it.
+int run_sections(BenchOptions asked, Talk& talk);
+
 // kernels.cpp: rates of single kernels on the first scene, beside bare Embree and bare memory.
 Json measure_kernels_section(const BenchOptions& options, Talk& talk);
 std::string format_kernels(const Json& section);

@@ -3,9 +3,9 @@
 
 #include "dsl/report/diagnostics.h"
 #include "dsl/report/limits.h"
+#include "engine/base/parallel.h"
 #include "engine/film/film.h"
 #include "engine/solve/forecast.h"
-#include "engine/base/parallel.h"
 #include "engine/solve/sizes.h"
 #include "tools/base/format.h"
 #include "tools/base/memory.h"

@@ -2,8 +2,8 @@
 // it makes or adds to by reference; nothing else passes between them.
 #pragma once
 
-#include "engine/film/film.h"
 #include "engine/base/stopwatch.h"
+#include "engine/film/film.h"
 #include "tools/base/files.h"
 #include "tools/export/run_report.h"
 #include "tools/image/animation.h"

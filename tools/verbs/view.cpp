@@ -2,9 +2,9 @@
 #include "tools/verbs/view.h"
 
 #include "dsl/report/diagnostics.h"
-#include "engine/film/film.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sampling.h"
+#include "engine/film/film.h"
 #include "tools/base/files.h"
 #include "tools/base/flag_values.h"
 #include "tools/base/format.h"

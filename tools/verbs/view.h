@@ -19,7 +19,7 @@ struct ViewOptions {
 
 // Returns the exit code: 0, or 128 + the signal that stopped the run. Throws UserError; usage for a polygon
 // that the scene does not have and for u,v outside of it.
-int view(const Options& options, Talk& talk);
+int view(const Options& asked, Talk& talk);
 
 // A place on a polygon and the side from which it is lit.
 struct PatchPlace {

@@ -26,8 +26,8 @@ TEST_CASE("a PFM file holds every float as it is, rows from the bottom to the to
 TEST_CASE("exporters tell what --format knows, and each row makes one kind of file") {
   for (const Exporter& row : exporters()) {
     CAPTURE(row.format);
-    const int kinds = (row.encode_picture != nullptr) + (row.encode_animation != nullptr) +
-                      (row.export_run != nullptr);
+    const int kinds =
+        (row.encode_picture != nullptr) + (row.encode_animation != nullptr) + (row.export_run != nullptr);
     CHECK(kinds == 1);
     CHECK((row.export_run != nullptr || row.bytes_per_patch == 0));
     CHECK((row.encode_picture != nullptr || (!row.layers && row.bytes_per_pixel == 0)));
