@@ -1,6 +1,4 @@
 // The table of projections.
-#include "engine/film/projections.h"
-
 #include "engine/film/lens.h"
 
 #include <cmath>

@@ -127,6 +127,7 @@ TEST_CASE("rooms: a folder includes what its row names, and what that may includ
   CHECK(includes.size() > 250);
   for (const auto& [file, headers] : includes) {
     for (const std::string& header : headers) {
+      if (header.ends_with(".inc")) continue;  // the build makes it
       CHECK_MESSAGE(header.find('/') != std::string::npos, file, " includes ", header,
                     ": includes are written from the root of the sources");
       if (fs::exists(fs::path(PATCHLIGHT_SOURCE_DIR) / header))
