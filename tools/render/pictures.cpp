@@ -116,7 +116,7 @@ void keep_light(LightHistory& light, const Task& task, const Solution& solution)
     light.before = std::move(light.now);
     light.now = find_radiosity(task, solution);
   }
-  if (solution.log.passes.size() == 1 && plan.goes_by_passes() &&
+  if (solution.log.passes.size() == 1 && plan.solver->goes_by_bounces &&
       (plan.look.light != Light::kAll || plan.has_layers()))
     light.first = find_radiosity(task, solution);
 }
@@ -155,7 +155,7 @@ void add_layers(Picture& picture, const Task& task, const PictureState& pictures
                 std::span<const Rgb> radiosity) {
   constexpr const char* kEndings[3] = {".R", ".G", ".B"};
   for (const Light light : {Light::kDirect, Light::kIndirect}) {
-    if (!task.plan.goes_by_passes()) break;
+    if (!task.plan.solver->goes_by_bounces) break;
     const std::vector<Rgb> pixels =
         expose(pictures.films[camera], pick_light(pictures.light, radiosity, light));
     for (int k = 0; k < 3; ++k) {

@@ -62,10 +62,10 @@ uint64_t forecast_series_bytes(const Scene& scene, const Plan& plan) {
 
 // Throws UserError (usage) for a look that other solvers do not have: where a step is no bounce of light.
 void check_look(const Plan& plan) {
-  if (plan.animate_shots && (!plan.solver->chooses_steps || plan.snapshots.front() == kSolutionStep))
+  if (plan.animate_shots && (!plan.solver->chooses_steps || plan.snapshots.front() == kLastStep))
     throw UserError("usage", fmt::format("--animation shots: expected --solver {} and --shots, such as 1-40",
                                          name_solvers(&Solver::chooses_steps)));
-  if (plan.goes_by_passes()) return;
+  if (plan.solver->goes_by_bounces) return;
   std::string flag;
   if (plan.look.light != Light::kAll) flag = "--light";
   if (plan.shows_passes()) flag = fmt::format("--false-color {}", plan.look.false_color->name);
@@ -113,7 +113,7 @@ void plan_steps(Plan& plan, Scene& scene, const Options& options) {
     return;
   }
   scene.output.ambient = options.ambient;
-  plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kSolutionStep} : options.shots;
+  plan.snapshots = options.shots.empty() ? std::vector<uint32_t>{kLastStep} : options.shots;
   plan.step_count_max = options.shots.empty() ? kShotsMax : options.shots.back();
 }
 
@@ -123,8 +123,6 @@ bool Plan::has_pictures() const {
   return storyboard || animate_passes || animate_shots ||
          has_any(*this, [](const Exporter& row) { return row.encode_picture != nullptr; });
 }
-
-bool Plan::goes_by_passes() const { return solver->goes_by_bounces; }
 
 bool Plan::is_exposed() const {
   return storyboard || animate_passes || animate_shots ||
@@ -233,9 +231,8 @@ std::string make_picture_name(const Plan& plan, const Scene& scene, const Camera
   const bool of_patches = look.false_color != nullptr && look.false_color->of_patches;
   const bool flat = of_patches ? !display : scene.output.shading == Shading::kFlat;
   const bool lit = color == nullptr || color->of_light;
-  const std::string place = step == kSolutionStep
-                                ? "solution"
-                                : fmt::format("{}-{:0{}}", plan.solver->step, step, plan.solver->digits);
+  const std::string place =
+      step == kLastStep ? "solution" : fmt::format("{}-{:0{}}", plan.solver->step, step, plan.solver->digits);
   return fmt::format(
       "{}-{}{}{}{}{}{}{}.{}", name_camera(plan, camera), place, scene.output.ambient ? "-ambient" : "",
       lit && look.light != Light::kAll ? "-" + kLightNames[static_cast<size_t>(look.light)] : "",

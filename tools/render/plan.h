@@ -10,8 +10,8 @@
 
 namespace patchlight {
 
-// A picture of where a solver ends, whichever step that is.
-constexpr uint32_t kSolutionStep = ~uint32_t{0};
+// In place of a step's number: where the solver ends, whichever step that is.
+constexpr uint32_t kLastStep = ~uint32_t{0};
 
 struct Plan {
   std::string stem;  // S in the names of files
@@ -30,7 +30,6 @@ struct Plan {
   size_t thread_count = 1;  // what it will run on
   uint64_t starting_patches = 0;
   bool has_pictures() const;
-  bool goes_by_passes() const;  // a step is a bounce of light
   bool is_exposed() const;      // something that it writes shows light as a display does
   bool shows_displays() const;  // pictures of its snapshots are among that
   bool has_layers() const;      // pictures of its snapshots are told in parts

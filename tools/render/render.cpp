@@ -171,7 +171,7 @@ std::string describe_steps(const Plan& plan, const RunReport& report, size_t cou
   else if (why != "converged")
     why = "all that were asked for";
   if (solver.takes_one_step) return count > 0 ? "the whole system at once" : why;
-  if (plan.snapshots.back() == kSolutionStep) return fmt::format("{} {}s ({})", count, solver.step, why);
+  if (plan.snapshots.back() == kLastStep) return fmt::format("{} {}s ({})", count, solver.step, why);
   return fmt::format("{} of {} {} ({})", count, plan.step_count_max, name_steps(solver.step), why);
 }
 

@@ -12,7 +12,7 @@ void say_step(const Solution& solution, const Plan& plan, const PassReport& step
               Talk& talk) {
   const Solver& solver = *plan.solver;
   // Nobody knows how many shots there will be; what they leave unshot says how far they are.
-  if (plan.snapshots.back() == kSolutionStep)
+  if (plan.snapshots.back() == kLastStep)
     say_progress(talk, fmt::format("{} {}, unshot {:.2g} of {:.2g}", solver.step, step.pass,
                                    sum_channels(step.unshot_power),
                                    solution.shooting ? solution.shooting->power : 0.0));
