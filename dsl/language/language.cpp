@@ -1,5 +1,5 @@
-// The language's tables, but for those of objects and shapes. A new key is one row here and one line where it
-// is used.
+// The language's tables, but for those of objects, shapes and cameras. A new key is one row here and one line
+// where it is used.
 #include "dsl/language/language.h"
 
 #include "dsl/report/limits.h"
@@ -86,19 +86,6 @@ constexpr KeyRule kMaterialRules[] = {
      "'temperature' wants 'emissivity' beside it; 1 is a black body"},
 };
 
-constexpr KeyRow kCameraRows[] = {
-    {"name", kName, false, "", 0, 0, "bad-name", "",
-     "Name, part of the picture's file name. Required where there are several."},
-    {"eye", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
-     "Where the camera stands."},
-    {"target", kVec3, true, "", -kCoordinateMax, kCoordinateMax, "coordinate-too-large", "",
-     "The point that it looks at."},
-    {"up", kVec3, false, "0 1 0", -kAnyNumber, kAnyNumber, "out-of-range", "", "What is up in the picture."},
-    {"fov", kNumber, false, "60", 0.01, 175, "out-of-range", "", "Vertical field of view, degrees."},
-    {"size", kIntegers2, false, "960 720", 1, kAnyInteger, "out-of-range", "",
-     "Width and height of the picture, pixels."},
-};
-
 constexpr KeyRow kSolverRows[] = {
     {"passes", kInteger, false, "16", 1, kPassesMax, "out-of-range", "", "At most so many passes (bounces)."},
     {"until", kNumber, false, "0.001", 0, 1, "out-of-range", "",
@@ -135,7 +122,6 @@ const KeyTable kTransformKeys = {"transform", kTransformRows, kTransformRules};
 const KeyTable kRotateKeys = {"rotate", kRotateRows};
 const KeyTable kExpectKeys = {"expect", kExpectRows};
 const KeyTable kMaterialKeys = {"material", kMaterialRows, kMaterialRules};
-const KeyTable kCameraKeys = {"camera", kCameraRows};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};
 

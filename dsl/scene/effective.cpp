@@ -4,6 +4,7 @@
 #include "dsl/language/expression.h"
 #include "dsl/language/variables.h"
 #include "dsl/report/text.h"
+#include "dsl/scene/cameras.h"
 
 #include <fmt/format.h>
 
@@ -120,6 +121,7 @@ void add_fitted_camera(const Scene& scene, SettingTable& settings) {
   add_setting(settings, "camera.fov", number_text(camera.fov_degrees), origin);
   add_setting(settings, "camera.size", fmt::format("[{}, {}]", camera.width, camera.height),
               std::string(kBuiltIn));
+  add_setting(settings, "camera.projection", std::string(camera.projection->name), std::string(kBuiltIn));
 }
 
 }  // namespace
@@ -131,12 +133,12 @@ SettingTable list_settings(const Context& context, const MapValues& map, const S
   add_row(context, "", map, row_of(kSceneKeys, "units"), settings);
   add_variables(context, settings);
   if (has(map, "camera")) {
-    add_map(context, "camera.", value_of(map, "camera").node, kCameraKeys, settings);
+    add_map(context, "camera.", value_of(map, "camera").node, camera_keys(), settings);
   } else if (has(map, "cameras") && tree.nodes[value_of(map, "cameras").node].count > 0) {
     uint32_t child = tree.nodes[value_of(map, "cameras").node].first;
     for (size_t k = 0; child != kNone; child = tree.nodes[child].next, ++k) {
       const std::string& name = scene.cameras[k].name;
-      add_map(context, name.empty() ? "camera." : fmt::format("cameras.{}.", name), child, kCameraKeys,
+      add_map(context, name.empty() ? "camera." : fmt::format("cameras.{}.", name), child, camera_keys(),
               settings);
     }
   } else {

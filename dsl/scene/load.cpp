@@ -8,6 +8,7 @@
 #include "dsl/polygons/outlines.h"
 #include "dsl/report/limits.h"
 #include "dsl/scene/camera_fit.h"
+#include "dsl/scene/cameras.h"
 #include "dsl/scene/effective.h"
 #include "dsl/scene/expect.h"
 #include "dsl/scene/faces.h"

@@ -1,6 +1,7 @@
 // A scene as the loader hands it on: faces for the engine, and what the program needs to speak of them.
 #pragma once
 
+#include "engine/film/lens.h"
 #include "engine/settings.h"
 #include "engine/tables.h"
 
@@ -26,8 +27,9 @@ struct PolygonTable {
 struct Camera {
   std::string name;         // empty for the single or the automatic camera
   DVec3 eye, target, up;    // engine lengths
-  double fov_degrees = 60;  // vertical
+  double fov_degrees = 60;  // vertical; some projections have a fixed one
   uint32_t width = 960, height = 720;
+  const Projection* projection = &projections()[0];
 };
 
 enum class Shading { kSmooth, kFlat };

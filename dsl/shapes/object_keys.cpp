@@ -1,4 +1,4 @@
-// The keys of an object, and all tables of the language.
+// The keys of an object.
 #include "dsl/shapes/object_keys.h"
 
 #include "dsl/report/limits.h"
@@ -70,18 +70,6 @@ std::vector<KeyRule> join_rules(std::deque<std::string>& texts) {
   return rules;
 }
 
-std::vector<const KeyTable*> join_tables() {
-  std::vector<const KeyTable*> tables = {&kSceneKeys,    &kIncludeKeys,   &kMaterialKeys,
-                                         &object_keys(), &kTransformKeys, &kRotateKeys};
-  for (const ShapeRow& shape : shape_rows())
-    if (shape.keys) tables.push_back(shape.keys);
-  for (const ShapeRow& shape : shape_rows())
-    for (const KeyTable& table : shape.inner) tables.push_back(&table);
-  for (const KeyTable* table : {&kCameraKeys, &kSolverKeys, &kOutputKeys, &kExpectKeys})
-    tables.push_back(table);
-  return tables;
-}
-
 }  // namespace
 
 const KeyTable& object_keys() {
@@ -90,11 +78,6 @@ const KeyTable& object_keys() {
   static const std::vector<KeyRule> rules = join_rules(texts);
   static const KeyTable table = {"object", rows, rules};
   return table;
-}
-
-std::span<const KeyTable* const> language_tables() {
-  static const std::vector<const KeyTable*> tables = join_tables();
-  return tables;
 }
 
 }  // namespace patchlight

@@ -1,6 +1,5 @@
 set(DSL_TEST_SOURCES
   dsl/language/expression.cpp
-  dsl/language/language.cpp
   dsl/language/number.cpp
   dsl/language/overrides.cpp
   dsl/language/values.cpp
@@ -12,9 +11,11 @@ set(DSL_TEST_SOURCES
   dsl/report/limits.cpp
   dsl/report/text.cpp
   dsl/scene/camera_fit.cpp
+  dsl/scene/cameras.cpp
   dsl/scene/expect.cpp
   dsl/scene/faces.cpp
   dsl/scene/include.cpp
+  dsl/scene/language_tables.cpp
   dsl/scene/readmes.cpp
   dsl/scene/settings.cpp
   dsl/scene/suspicious.cpp

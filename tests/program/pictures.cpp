@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <tinyexr.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -63,6 +64,29 @@ TEST_CASE("pictures of direct and of indirect light add up to those of all light
     CHECK(direct_sum > 0);
     CHECK((indirect_sum > 0) == (std::string(pass) == "16"));
   }
+}
+
+TEST_CASE("render shows what a camera's projection shows: straight edges, or a hemisphere in a circle") {
+  const Folder folder;
+  const char* const cameras = R"(cameras:
+  - {name: flat, eye: [0.5, 0.5, 0.9], target: [0.5, 0.5, 0]}
+  - {name: round, eye: [0.5, 0.5, 0.9], target: [0.5, 0.5, 0], projection: fisheye}
+)";
+  write_bytes(folder / "box.yaml", kBoxScene + std::string(cameras));
+  const ChildResult result = run_child(
+      render_words(folder / "box.yaml", folder / "lit", {"--format", "exr,png", "--snapshots", "1"}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  const std::vector<float> flat = read_exr(folder / "lit/box-flat-pass-01.exr"),
+                           round = read_exr(folder / "lit/box-round-pass-01.exr");
+  // In the middle both look at the wall. The circle is 36 of the 48 pixels wide.
+  const auto pixel = [](size_t x, size_t y) { return 3 * (48 * y + x); };
+  CHECK(flat[pixel(24, 18)] > 0);
+  CHECK(round[pixel(24, 18)] == doctest::Approx(flat[pixel(24, 18)]).epsilon(0.05));
+  for (const size_t x : {size_t{0}, size_t{5}, size_t{42}, size_t{47}}) CHECK(round[pixel(x, 18)] == 0);
+  // A hemisphere holds the lamp, which 60 degrees do not.
+  CHECK(*std::max_element(round.begin(), round.end()) > *std::max_element(flat.begin(), flat.end()));
+  CHECK(is_whole_png(read_bytes(folder / "lit/box-round-pass-01.png")));
 }
 
 TEST_CASE("looks are named in the files, and differ") {

@@ -16,6 +16,7 @@
 #include "tools/bench/sections.h"
 #include "tools/bench/solve_case.h"
 #include "tools/export/exporters.h"
+#include "tools/render/pictures.h"
 
 #include <fmt/format.h>
 
@@ -103,9 +104,7 @@ Bench make_bench(const std::string& path, uint64_t max_patches) {
   b.sent = b.passed.mesh.elements.unshot;
   b.sources = make_sources(b.passed.mesh.elements, *b.surfaces, b.sent, kSourceCount);
   advance(b.passed);
-  const Camera& camera = b.scene.cameras.front();
-  b.view = {Vec3(camera.eye), Vec3(camera.target), Vec3(camera.up), static_cast<float>(camera.fov_degrees),
-            camera.width,     camera.height};
+  b.view = make_view(b.scene.cameras.front());
   b.film = make_film(make_scenery(b.passed), b.view, {});
   b.vertex_values = vertex_radiosity(b.passed);
   b.picture = {b.film.width, b.film.height, expose(b.film, b.vertex_values)};

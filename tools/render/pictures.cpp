@@ -87,7 +87,8 @@ View make_view(const Camera& camera) {
           .up = Vec3(camera.up),
           .fov_degrees = static_cast<float>(camera.fov_degrees),
           .width = camera.width,
-          .height = camera.height};
+          .height = camera.height,
+          .projection = camera.projection};
 }
 
 std::vector<Rgb> find_radiosity(const Task& task, const Solution& solution) {

@@ -2,7 +2,7 @@
 #include "tools/verbs/schema.h"
 
 #include "dsl/language/values.h"
-#include "dsl/shapes/object_keys.h"
+#include "dsl/scene/language_tables.h"
 #include "dsl/shapes/shapes.h"
 #include "tools/base/files.h"
 #include "tools/base/json.h"

@@ -1,5 +1,5 @@
 // The tables of the language are complete enough to make a schema and a reference from.
-#include "dsl/language/language.h"
+#include "dsl/scene/language_tables.h"
 
 #include "dsl/language/values.h"
 #include "dsl/report/diagnostics.h"
