@@ -23,7 +23,7 @@ struct Emitter {
   std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
 };
 
-Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& cell);
+Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
 // All faces that emit, in their order.
 std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames);
 

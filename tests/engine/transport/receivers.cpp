@@ -151,7 +151,7 @@ TEST_CASE("receivers: rays start evenly over the area, by the normal of the patc
     one.area_until.push_back(until += patch < 4 ? 1 / 24.0f : 1 / 6.0f);
   }
   one.area_until.back() = 1;
-  one.centre = {Vec3(0)}, one.normal = {Vec3(1, 0, 0)};
+  one.centre.assign(1, Vec3(0)), one.normal.assign(1, Vec3(1, 0, 0));
   const LeafIndex index;
   const Casters casters{*surfaces, patches, index, one, {}};
   constexpr uint32_t kSide = 240;
