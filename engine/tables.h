@@ -90,24 +90,6 @@ struct VertexTable {
   size_t size() const { return border.size(); }
 };
 
-// Lamps that each polygon aims at (rays from its elements to points on the lamp). All other emission its
-// patches meet by their rows.
-struct LightListTable {
-  std::vector<uint32_t> list_of;     // a row a polygon; polygons whose patches share a receiver have one list
-  std::vector<uint32_t> list_first;  // CSR: list -> lamps (faces), ascending, at most kAimedLampsMax
-  std::vector<uint32_t> lamp;
-};
-constexpr size_t kAimedLampsMax = 64;  // as many as fit a 64-bit mask
-
-// What is known of each element's view of the lamps that its polygon aims at. Bit k: lamp k of the polygon's
-// list.
-struct LampViewTable {
-  std::vector<uint64_t> seen;     // every ray so far reached the lamp
-  std::vector<uint64_t> hidden;   // no ray so far reached the lamp; neither bit: some did
-  std::vector<uint64_t> settled;  // the neighbours agree: parts of this element need no rays of their own
-  size_t size() const { return seen.size(); }
-};
-
 // Who casts rows of rays: a patch, or many small ones that share a row. All patches of a receiver get the
 // same irradiance from its row.
 struct ReceiverTable {
@@ -118,6 +100,15 @@ struct ReceiverTable {
   std::vector<Vec3> centre, normal;   // lengths, unit: means over the area
   std::vector<uint32_t> receiver_of;  // a row a patch
   size_t size() const { return centre.size(); }
+};
+
+// Which groups of emitters (light/emitters.h) each receiver may see: a row a receiver and group.
+struct SightTable {
+  std::vector<uint32_t> first;  // CSR: receiver -> its rows
+  std::vector<uint32_t> group;
+  std::vector<uint64_t> pieces;  // bit k: piece k of the group may be seen
+  std::vector<uint8_t> clear;    // 1: all of it is, from everywhere here
+  size_t size() const { return group.size(); }
 };
 
 // Where the row rays of each receiver ended: ray_count entries a receiver, for geometry does not change.
@@ -197,15 +188,10 @@ constexpr auto list_columns(const VertexTable*) {
                     TableColumn{"hanging_order", &T::hanging_order, false},
                     TableColumn{"border", &T::border}};
 }
-constexpr auto list_columns(const LightListTable*) {
-  using T = LightListTable;
-  return std::tuple{TableColumn{"list_of", &T::list_of, false},
-                    TableColumn{"list_first", &T::list_first, false}, TableColumn{"lamp", &T::lamp, false}};
-}
-constexpr auto list_columns(const LampViewTable*) {
-  using T = LampViewTable;
-  return std::tuple{TableColumn{"seen", &T::seen}, TableColumn{"hidden", &T::hidden},
-                    TableColumn{"settled", &T::settled}};
+constexpr auto list_columns(const SightTable*) {
+  using T = SightTable;
+  return std::tuple{TableColumn{"first", &T::first, false}, TableColumn{"group", &T::group},
+                    TableColumn{"pieces", &T::pieces}, TableColumn{"clear", &T::clear}};
 }
 constexpr auto list_columns(const ReceiverTable*) {
   using T = ReceiverTable;

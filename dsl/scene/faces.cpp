@@ -30,6 +30,7 @@ struct Sums {
   DVec3 base{0};
   double smallest = 1e300, largest = 0;
   uint32_t smallest_polygon = 0;
+  bool any_lit = false;  // area and moment are those of what light falls on
 };
 
 uint8_t level_for(uint32_t subdivide, size_t face_count) {
@@ -41,16 +42,20 @@ uint8_t level_for(uint32_t subdivide, size_t face_count) {
   return level;
 }
 
-void add_sums(const FlatPolygon& flat, uint32_t p, Sums& sums) {
+// is_lit: light falls on it. A sun or a sky may be as far and as large as it likes: single precision is kept
+// for the others.
+void add_sums(const FlatPolygon& flat, uint32_t p, bool is_lit, Sums& sums) {
   const double area = flat.area * flat.size * flat.size;
-  if (sums.area == 0) sums.base = flat.origin;
-  sums.area += area;
-  sums.moment += (point_at(flat, flat.centroid) - sums.base) * area;
+  if (is_lit && !sums.any_lit) sums.area = 0, sums.moment = DVec3(0), sums.any_lit = true;
   sums.largest = std::max(sums.largest, flat.size);
   if (flat.size < sums.smallest) {
     sums.smallest = flat.size;
     sums.smallest_polygon = p;
   }
+  if (!is_lit && sums.any_lit) return;
+  if (sums.area == 0) sums.base = flat.origin;
+  sums.area += area;
+  sums.moment += (point_at(flat, flat.centroid) - sums.base) * area;
 }
 
 // Lays polygon p flat by the rules for scenes or those for meshes. False where nothing is to be cut.
@@ -92,7 +97,9 @@ CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& mate
                   fmt::format("'{}' cannot be cut: parts of it are too close to each other",
                               escape_text(outlines.id[p])));
       normal = flat.normal;
-      add_sums(flat, p, sums);
+      const bool is_lamp =
+          material != kNone && emission != DRgb(0) && materials.reflectance[material] == DRgb(0);
+      add_sums(flat, p, !is_lamp, sums);
     }
     table.points.insert(table.points.end(), cut.points.begin(), cut.points.end());
     table.faces.insert(table.faces.end(), cut.faces.begin(), cut.faces.end());

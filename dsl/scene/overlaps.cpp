@@ -10,6 +10,7 @@
 namespace patchlight {
 namespace {
 
+constexpr double kSmaller = 1 - 1e-5;
 constexpr double kOneAngle = 1e-6;        // of normals: 1 - cosine
 constexpr double kOnePlane = 2e-6;        // lengths: about a ray's offset
 constexpr double kOverlapMin = 1e-5;      // share of the smaller polygon's area
@@ -194,9 +195,9 @@ void warn_of_overlaps(Messages& messages, const Tree& tree, const ObjectTable& o
          j < order.size() && planes.offset[order[j]] - planes.offset[order[i]] < 4 * kOnePlane; ++j) {
       if (++pairs > kPairsMax) return;
       if (!is_overlap(planes, outlines, scene, order[i], order[j], work)) continue;
-      // The smaller one is the lamp or the rug; of equals the later.
+      // The smaller one is the lamp or the rug; of equals, but for rounding, the later.
       const auto [first, second] = std::minmax(order[i], order[j]);
-      const size_t small = planes.area[first] < planes.area[second] ? first : second,
+      const size_t small = planes.area[first] < planes.area[second] * kSmaller ? first : second,
                    large = small == first ? second : first;
       const uint32_t p = planes.outline[small];
       add_warning(

@@ -41,5 +41,8 @@ inline Frame make_frame(Vec3 n) {
 inline float ray_offset(Vec3 p) {
   return 2e-6f * std::max({0.25f, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
+// How far before its target a ray from `from` ends: tracers tell distances no better than the larger of both
+// coordinates lets them.
+inline float ray_offset(Vec3 from, Vec3 target) { return std::max(ray_offset(from), ray_offset(target)); }
 
 }  // namespace patchlight

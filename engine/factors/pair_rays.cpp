@@ -126,7 +126,7 @@ double make_ray(RayPacket& rays, uint32_t lane, const RayPairTable& pairs, size_
           : find_near_target(scratch, triangles_to, normal_to, origin, normal, point[2], point[3]);
   if (!(target.weight > 0)) return 0;
   const Vec3 start = Vec3(origin) + ray_offset(Vec3(origin)) * Vec3(normal);
-  const Vec3 way = Vec3(target.point) + ray_offset(Vec3(target.point)) * Vec3(normal_to) - start;
+  const Vec3 way = Vec3(target.point) + ray_offset(start, Vec3(target.point)) * Vec3(normal_to) - start;
   rays.origin_x[lane] = start.x, rays.origin_y[lane] = start.y, rays.origin_z[lane] = start.z;
   rays.direction_x[lane] = way.x, rays.direction_y[lane] = way.y, rays.direction_z[lane] = way.z;
   rays.near_distance[lane] = 0, rays.far_distance[lane] = 1;

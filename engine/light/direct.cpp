@@ -38,82 +38,60 @@ uint64_t find_exposed(Mesh& mesh, std::span<const uint32_t> rows, const Surfaces
 
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const DirectScene& scene,
                      DirectRays rays, uint64_t seed) {
-  const PatchTable& elements = scene.elements;
-  const LightListTable& lists = scene.lists;
-  const FaceTable& faces = scene.surfaces.faces;
+  const PatchTable& elements = scene.mesh.elements;
+  const EmitterGroups& groups = scene.groups;
+  const SightTable& sights = scene.sights;
   const FaceFrameTable& frames = scene.surfaces.frames;
   assert(out.irradiance.size() == elements.size());
-  const std::vector<Emitter> lamps = make_emitters(faces, frames);
-  std::vector<uint32_t> lamp_of(faces.size(), kNone);
-  for (uint32_t k = 0; k < lamps.size(); ++k) lamp_of[lamps[k].face] = k;
   const uint32_t packet_count = std::clamp((rays.mixed + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
-    ElementPoints from(scene.surfaces, scene.elements, packet_count);
-    std::array<float, kAimedLampsMax> factor;
+    ElementPoints from(scene.surfaces, elements, packet_count);
+    std::vector<GroupLook> looks;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
-      const uint32_t row = rows[r], list = lists.list_of[faces.polygon[elements.face[row]]];
-      const uint32_t first = lists.list_first[list], count = lists.list_first[list + 1] - first;
-      const Vec3 normal = faces.normal[elements.face[row]];
-      const uint64_t settled = out.views.settled[row], settled_seen = settled & out.views.seen[row];
-      uint64_t seen = settled_seen, hidden = settled & out.views.hidden[row];
+      const uint32_t row = rows[r], receiver = scene.receivers.receiver_of[scene.mesh.element_patch[row]];
       Rgb irradiance(0);
       double variance = 0;  // emissions may be as large as 1e20
       start_element(from, row, seed);
+      const uint32_t first = sights.first[receiver], last = sights.first[receiver + 1];
+      out.irradiance[row] = Rgb(0);
+      out.error[row] = 0;
+      if (elements.exposed[row] == 0 || first == last) continue;
       make_packets(from, 1);
-      const bool dark = elements.exposed[row] == 0 || from.open[0] == 0;
+      if (from.open[0] == 0) continue;
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
-      // What each lamp would give if nothing were in its way, and all of them together.
+      // What each group would give if nothing were in its way, and all of them together.
+      looks.resize(last - first);
       double unoccluded = 0;
-      for (uint32_t k = 0; k < count && !dark; ++k) {
-        const Emitter& lamp = lamps[lamp_of[lists.lamp[first + k]]];
-        factor[k] = 0;
-        if (hidden >> k & 1u) continue;
-        if (!can_reach(corners, normal, lamp))
-          hidden |= uint64_t{1} << k;
-        else
-          factor[k] = find_mean_factor(from, corners, lamp, from.open[0]);
-        unoccluded += factor[k] * luminance(faces.emission[lamp.face]);
+      for (uint32_t k = first; k < last; ++k) {
+        GroupLook& look = looks[k - first];
+        find_unoccluded(look, from, corners, groups, sights.group[k], sights.pieces[k]);
+        unoccluded += look.strength;
       }
-      for (uint32_t k = 0; k < count && !dark; ++k) {
-        if (factor[k] == 0) continue;  // hidden, or the lamp's horizon crosses a part of the element
-        const Emitter& lamp = lamps[lamp_of[lists.lamp[first + k]]];
-        const Rgb emission = faces.emission[lamp.face];
-        if (settled_seen >> k & 1u) {
-          irradiance += factor[k] * emission;
+      for (uint32_t k = first; k < last; ++k) {
+        const GroupLook& look = looks[k - first];
+        if (look.strength <= 0) continue;
+        if (sights.clear[k]) {
+          irradiance += look.irradiance;
           continue;
         }
-        // One packet for a lamp that is weak among many.
-        const double strength = factor[k] * luminance(emission);
-        const uint32_t most = strength < kWeakLamp * unoccluded ? 1 : packet_count;
-        const VisibilitySums sums = find_visibility(from, lamp, most, rays.unmixed);
+        // One packet for a group that is weak among many.
+        const uint32_t most = look.strength < kWeakLamp * unoccluded ? 1 : packet_count;
+        const VisibilitySums sums = find_visibility(from, look, groups, sights.group[k], most, rays.unmixed);
         cast += sums.rays;
-        const float visible = sums.share();
-        if (sums.reached == sums.rays) seen |= uint64_t{1} << k;
-        if (sums.reached == 0) hidden |= uint64_t{1} << k;
-        irradiance += factor[k] * visible * emission;
-        // Stratification makes N pairs worth about 3 N random ones (measured on half screens).
-        variance += strength * strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
+        irradiance += sums.share() * look.irradiance;
+        // Stratification makes N pairs worth about 3 N random ones (measured on half screens). Where all N
+        // agree, one more might not have.
+        const double visible = (sums.reached + 0.5) / (sums.rays + 1.0);
+        variance += look.strength * look.strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
       }
       out.irradiance[row] = irradiance;
       out.error[row] = static_cast<float>(std::sqrt(variance));
-      out.views.seen[row] = seen;
-      out.views.hidden[row] = hidden;
     }
     ray_count += cast;
   });
   return ray_count;
-}
-
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, const FaceFrameTable& frames,
-                      const FaceLinkTable& links, uint32_t row) {
-  uint64_t agreed = views.seen[row] | views.hidden[row];
-  for (uint32_t edge = 0; edge < edge_count(frames, elements.face[row]); ++edge)
-    for (const uint32_t other : find_neighbours(elements, frames, links, row, edge))
-      if (other != kNone)
-        agreed &= (views.seen[row] & views.seen[other]) | (views.hidden[row] & views.hidden[other]);
-  return agreed;
 }
 
 }  // namespace patchlight

@@ -1,7 +1,8 @@
-// Direct light on elements from the lamps that their polygon aims at: Lambert's formula times a ratio
+// Direct light on elements from the emitters that their receivers see: Lambert's formula times a ratio
 // estimate of visibility.
 #pragma once
 
+#include "engine/light/emitters.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surfaces.h"
 
@@ -15,32 +16,27 @@ uint64_t find_exposed(Mesh& mesh, std::span<const uint32_t> rows, const Surfaces
 
 struct DirectColumns {
   std::span<Rgb> irradiance;  // a row an element, W/m2: mean over its exposed area
-  std::span<float>
-      error;  // a row an element: standard error of its luminance, W/m2; 0 where no shadow edge lies
-  LampViewTable& views;  // in: what is settled; out: what was seen
+  std::span<float> error;     // a row an element: standard error of its luminance, W/m2
 };
 
-// Who looks at which lamps.
+// Who looks at which emitters.
 struct DirectScene {
   const Surfaces& surfaces;
-  const PatchTable& elements;
-  const LightListTable& lists;
+  const Mesh& mesh;
+  const ReceiverTable& receivers;
+  const EmitterGroups& groups;
+  const SightTable& sights;
 };
 
-// Rays for an element and a lamp: `unmixed` while they agree, up to `mixed` where some reach the lamp and
-// some do not.
+// Rays for an element and a group of emitters: `unmixed` while they agree, up to `mixed` where some arrive
+// and some do not.
 struct DirectRays {
   uint32_t unmixed = 16, mixed = 64;
 };
 
-// Direct light of the elements `rows`; others are not touched. No rays where a lamp is settled. Returns the
-// number of rays.
+// Direct light of the elements `rows`; others are not touched. No rays where a group is in clear sight.
+// Returns the number of rays.
 uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const DirectScene& scene,
                      DirectRays rays, uint64_t seed);
-
-// Settles lamps for an element that is about to be split: those that it and all its neighbours see whole, or
-// not at all.
-uint64_t find_settled(const LampViewTable& views, const PatchTable& elements, const FaceFrameTable& frames,
-                      const FaceLinkTable& links, uint32_t row);
 
 }  // namespace patchlight

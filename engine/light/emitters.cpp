@@ -83,6 +83,137 @@ float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter) {
                                                    std::span(emitter.corners).first(emitter.corner_count)));
 }
 
+namespace {
+
+// A face is cut until a cell of it, weighed by the fourth root of its share of all power, looks smaller than
+// this.
+constexpr float kPieceAngle = 0.125f;
+constexpr uint32_t kPieceLevelMax = 4;
+constexpr size_t kPiecesWanted = 1024;
+// Pieces no further off than so many times the nearest are beside one: on a grid, all eight.
+constexpr float kBeside = 1.6f;
+
+// How wide a face looks from about the middle of what reflects.
+float find_angle(const FaceTable& faces, const Emitter& lamp, Vec3 low, Vec3 high, float scale) {
+  const Vec3 nearest = clamp(lamp.centre, low, high);
+  return std::min(lamp.diameter / (0.15f * scale + distance(nearest, lamp.centre)), 2.0f);
+}
+
+struct PieceName {
+  uint32_t face, cell;
+  uint8_t level;
+  Vec3 centre;
+};
+
+// Halves a run of pieces across its longest axis until groups are small enough.
+void split_group(std::vector<PieceName>& names, uint32_t first, uint32_t last, std::vector<uint32_t>& ends) {
+  if (last - first <= kGroupPiecesMax) {
+    ends.push_back(last);
+    return;
+  }
+  Vec3 low(1e30f), high(-1e30f);
+  for (uint32_t k = first; k < last; ++k) low = min(low, names[k].centre), high = max(high, names[k].centre);
+  const Vec3 size = high - low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const uint32_t middle = first + (last - first) / 2;
+  std::nth_element(names.begin() + first, names.begin() + middle, names.begin() + last,
+                   [&](const PieceName& a, const PieceName& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                            : a.face != b.face               ? a.face < b.face
+                                                             : a.cell < b.cell;
+                   });
+  split_group(names, first, middle, ends);
+  split_group(names, middle, last, ends);
+}
+
+}  // namespace
+
+EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames) {
+  const std::vector<Emitter> lamps = make_emitters(faces, frames);
+  Vec3 low(1e30f), high(-1e30f);
+  double area = 0, power = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    if (largest(faces.reflectance[f]) == 0) continue;
+    area += cell_area(frames, f, 0, 0);
+    for (const Vec3& p : faces.corners[f]) low = min(low, p), high = max(high, p);
+  }
+  for (const Emitter& lamp : lamps) power += double{lamp.area} * luminance(faces.emission[lamp.face]);
+  const auto scale = static_cast<float>(std::sqrt(area));
+  std::vector<uint8_t> level(lamps.size(), 0);
+  if (area > 0) {
+    for (float wanted = kPieceAngle;; wanted *= 1.5f) {
+      size_t count = 0;
+      for (size_t k = 0; k < lamps.size(); ++k) {
+        const double share = lamps[k].area * luminance(faces.emission[lamps[k].face]) / power;
+        float angle =
+            find_angle(faces, lamps[k], low, high, scale) * static_cast<float>(std::sqrt(std::sqrt(share)));
+        for (level[k] = 0; angle > wanted && level[k] < kPieceLevelMax; angle /= 2) ++level[k];
+        count += size_t{1} << 2 * level[k];
+      }
+      if (count <= std::max(kPiecesWanted, lamps.size())) break;
+    }
+  }
+  std::vector<PieceName> names;
+  for (size_t k = 0; k < lamps.size(); ++k)
+    for (uint32_t part = 0; part < 1u << 2 * level[k]; ++part) {
+      const uint32_t cell = level[k] == 0 ? 0 : part << (32 - 2 * level[k]);
+      names.push_back({lamps[k].face, cell, level[k], cell_centre(frames, lamps[k].face, cell, level[k])});
+    }
+  EmitterGroups groups;
+  groups.piece_first.push_back(0);
+  std::vector<uint32_t> ends;
+  if (!names.empty()) split_group(names, 0, static_cast<uint32_t>(names.size()), ends);
+  for (const uint32_t end : ends) {
+    std::sort(
+        names.begin() + groups.piece_first.back(), names.begin() + end,
+        [](const auto& a, const auto& b) { return a.face != b.face ? a.face < b.face : a.cell < b.cell; });
+    groups.piece_first.push_back(end);
+  }
+  for (const PieceName& name : names) {
+    const Emitter piece = make_emitter(faces, frames, {name.face, name.cell, name.level});
+    const Rgb emission = faces.emission[name.face];
+    const Vec3 normal = piece.normal * (piece.area * luminance(emission) / kPi);
+    groups.emission.push_back(emission);
+    groups.x.push_back(piece.centre.x), groups.y.push_back(piece.centre.y),
+        groups.z.push_back(piece.centre.z);
+    groups.normal_x.push_back(normal.x), groups.normal_y.push_back(normal.y),
+        groups.normal_z.push_back(normal.z);
+    groups.diameter_squared.push_back(piece.diameter * piece.diameter);
+    groups.pieces.push_back(piece);
+  }
+  groups.beside.resize(groups.pieces.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const uint32_t first = groups.piece_first[g], last = groups.piece_first[g + 1];
+    for (uint32_t a = first; a < last; ++a) {
+      float nearest = 1e30f;
+      for (uint32_t b = first; b < last; ++b)
+        if (b != a) nearest = std::min(nearest, distance(groups.pieces[a].centre, groups.pieces[b].centre));
+      for (uint32_t b = first; b < last; ++b)
+        if (distance(groups.pieces[a].centre, groups.pieces[b].centre) <= kBeside * nearest || b == a)
+          groups.beside[a] |= uint64_t{1} << (b - first);
+    }
+  }
+  return groups;
+}
+
+float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGroups& groups, size_t group,
+                     Vec3 point, Vec3 normal) {
+  const uint32_t first = groups.piece_first[group], count = groups.piece_count(group);
+  const float *px = &groups.x[first], *py = &groups.y[first], *pz = &groups.z[first];
+  const float *nx = &groups.normal_x[first], *ny = &groups.normal_y[first], *nz = &groups.normal_z[first];
+  float* out = strength.data();
+  for (uint32_t k = 0; k < count; ++k) {
+    const float x = px[k] - point.x, y = py[k] - point.y, z = pz[k] - point.z;
+    const float squared = x * x + y * y + z * z;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float sent = std::max(-(x * nx[k] + y * ny[k] + z * nz[k]), 0.0f);
+    out[k] = cosine * sent / std::max(squared * squared, 1e-30f);
+  }
+  float sum = 0;
+  for (uint32_t k = 0; k < count; ++k) sum += out[k];
+  return sum;
+}
+
 bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Emitter& emitter) {
   const auto any_above = [](const std::array<Vec3, 4>& points, Vec3 base, Vec3 up, float slack) {
     return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return dot(p - base, up) > slack; });

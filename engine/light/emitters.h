@@ -3,6 +3,7 @@
 
 #include "engine/mesh/cell.h"
 
+#include <span>
 #include <vector>
 
 namespace patchlight {
@@ -26,6 +27,31 @@ struct Emitter {
 Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
 // All faces that emit, in their order.
 std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames);
+
+constexpr size_t kGroupPiecesMax = 64;  // as many as fit a 64-bit mask
+
+// Emitters in groups of pieces that a receiver looks at as one: the facets of a bulb, the lamps of a ceiling,
+// the cells of a wide sky. Pieces of a group are side by side and sorted by place.
+struct EmitterGroups {
+  std::vector<Emitter> pieces;
+  std::vector<Rgb> emission;          // a row a piece, W/m2
+  std::vector<uint32_t> piece_first;  // CSR: group -> its pieces, at most kGroupPiecesMax of them
+  // The pieces once more, as columns for loops over lanes.
+  std::vector<float> x, y, z;                       // lengths: centres
+  std::vector<float> normal_x, normal_y, normal_z;  // times area and luminance over pi
+  std::vector<float> diameter_squared;              // lengths squared
+  std::vector<uint64_t> beside;  // a row a piece: itself and those of its group next to it
+  size_t size() const { return piece_first.empty() ? 0 : piece_first.size() - 1; }
+  uint32_t piece_count(size_t group) const { return piece_first[group + 1] - piece_first[group]; }
+  uint64_t all_pieces(size_t group) const { return ~uint64_t{0} >> (kGroupPiecesMax - piece_count(group)); }
+};
+// All faces that emit. Those that look wide from the surfaces that reflect are cut into cells.
+EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames);
+
+// What each piece of a group would bring to a point if nothing were in its way, from its centre (W/m2,
+// luminance): written to strength[0 .. piece_count). Returns the sum.
+float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGroups& groups, size_t group,
+                     Vec3 point, Vec3 normal);
 
 // The unoccluded form factor from a point to the emitter.
 float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter);

@@ -33,7 +33,7 @@ void add_dim_ray(DimPacket& dim, const ElementPoints& from, float factor, const 
   const Vec3 far =
       face_point(frames, shooter.face, cell_sample(shooter_triangle, shooter.cell, make_jitter(key, 1)));
   const Vec3 start = near + ray_offset(near) * from.surfaces.faces.normal[face];
-  const Vec3 way = far + ray_offset(far) * shooter.normal - start;
+  const Vec3 way = far + ray_offset(near, far) * shooter.normal - start;
   dim.rays.origin_x[k] = start.x, dim.rays.origin_y[k] = start.y, dim.rays.origin_z[k] = start.z;
   dim.rays.direction_x[k] = way.x, dim.rays.direction_y[k] = way.y, dim.rays.direction_z[k] = way.z;
   dim.rays.near_distance[k] = 0, dim.rays.far_distance[k] = 1;

@@ -1,6 +1,7 @@
 // Pairs of points of an element and an emitter; Lambert's formula averaged over an element.
 #include "engine/light/visibility.h"
 
+#include "engine/mesh/buried.h"
 #include "engine/mesh/cell_rays.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace {
 // An element nearer to an emitter than this many of its edges takes its mean factor by Gauss's rule, not at
 // its centre.
 constexpr float kNearEmitter = 40;
+// A piece of a group that looks wider than this takes more than its centre.
+constexpr float kWidePiece = 0.1f;
 
 Vec2 stratified_sample(uint64_t key, uint32_t packet, const Strata& strata, uint32_t column, uint32_t row,
                        uint32_t index) {
@@ -65,7 +68,9 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
     u[k] = uv.x, v[k] = uv.y;
   }
   Points targets;
-  make_face_points(targets, frames, emitter.face, ray_offset(emitter.centre) * emitter.normal, u, v);
+  make_face_points(targets, frames, emitter.face,
+                   ray_offset({points.x[0], points.y[0], points.z[0]}, emitter.centre) * emitter.normal, u,
+                   v);
   RayPacket rays;
   float kernel[kPacketSize];
   for (uint32_t k = 0; k < kPacketSize; ++k) {
@@ -185,6 +190,104 @@ VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint
     if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
     make_packets(from, packet + 1);
     add_visibility(sums, from, packet, emitter);
+  }
+  return sums;
+}
+
+void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::array<Vec3, 4>& corners,
+                     const EmitterGroups& groups, uint32_t group, uint64_t pieces) {
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const auto [face, code, level] = name_cell(from.elements, from.row);
+  const Vec3 centre = cell_centre(frames, face, code, level), normal = from.surfaces.faces.normal[face];
+  const float edge = longest_edge(corners), far = kNearEmitter * edge, far_squared = far * far;
+  const uint32_t first = groups.piece_first[group], usable = from.open[0];
+  std::array<float, kGroupPiecesMax> strength;
+  find_strengths(strength, groups, group, centre, normal);
+  look.irradiance = Rgb(0), look.strength = 0, look.count = 0;
+  for (uint64_t rest = pieces; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<uint32_t>(std::countr_zero(rest));
+    const uint32_t piece = first + k;
+    const Emitter& emitter = groups.pieces[piece];
+    const Rgb emission = groups.emission[piece];
+    const Vec3 way = emitter.centre - centre;
+    const float squared = dot(way, way), wide = groups.diameter_squared[piece];
+    float value = strength[k];
+    // The centre tells a piece that is small and far from an element that is small.
+    if (usable != 0xffff || wide > kWidePiece * kWidePiece * squared || squared < 4 * far_squared) {
+      if (emitter.face == face) continue;
+      if (!can_reach(corners, normal, emitter)) continue;
+      value = find_mean_factor(from, corners, emitter, usable) * luminance(emission);
+    }
+    if (value <= 0) continue;
+    look.irradiance += value / luminance(emission) * emission;
+    look.piece[look.count] = static_cast<uint8_t>(k);
+    look.strength_until[look.count++] = look.strength += value;
+  }
+}
+
+namespace {
+
+// Adds one packet of pairs of the element's points and points of the group's pieces.
+void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
+                    const EmitterGroups& groups, uint32_t group) {
+  const Points& points = from.points[packet];
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
+  // Quarters of all strength go with rows of the element's points, quarters of those with columns.
+  const uint64_t key = mix_bits(from.key ^ (uint64_t{group} + 1) * 0x9e3779b97f4a7c15ull);
+  const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
+  RayPacket rays;
+  float kernel[kPacketSize];
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t stratum = 4 * ((k / 4) ^ (shuffle & 3)) + ((k % 4) ^ (shuffle >> 2 & 3));
+    const Vec2 inside = make_jitter(key, 2 * (packet * kPacketSize + k));
+    const Vec2 more = make_jitter(key, 2 * (packet * kPacketSize + k) + 1);
+    const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (k % 8)) & 15);
+    const float at = (static_cast<float>(stratum) + from.strata.place(part, inside.x)) / 16 * look.strength;
+    const auto* until = look.strength_until.data();
+    const uint32_t n = std::min(
+        static_cast<uint32_t>(std::upper_bound(until, until + look.count, at) - until), look.count - 1);
+    const float before = n ? until[n - 1] : 0, width = until[n] - before;
+    const uint32_t piece = groups.piece_first[group] + look.piece[n];
+    const Emitter& emitter = groups.pieces[piece];
+    const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, {more.x, more.y});
+    Vec3 target = face_point(frames, emitter.face, uv);
+    target += ray_offset({points.x[k], points.y[k], points.z[k]}, target) * emitter.normal;
+    const float x = target.x - points.x[k], y = target.y - points.y[k], z = target.z - points.z[k];
+    const float squared = x * x + y * y + z * z;
+    const float jacobian = 1 + uv.y * emitter.twist.x + uv.x * emitter.twist.y;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float sent = std::max(-(x * emitter.normal.x + y * emitter.normal.y + z * emitter.normal.z), 0.0f);
+    // Over the density: what the piece was chosen by, spread over its area.
+    kernel[k] = cosine * sent * jacobian / std::max(squared * squared, 1e-30f) * emitter.area *
+                luminance(groups.emission[piece]) / width;
+    active |= (kernel[k] > 0 ? 1u : 0u) << k;
+    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
+    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
+  active &= from.open[packet];
+  if (!active) return;
+  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(active >> k & 1u)) continue;
+    sums.all += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  }
+  sums.rays += static_cast<uint32_t>(std::popcount(active));
+  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
+}  // namespace
+
+VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
+                               uint32_t group, uint32_t packet_count, uint32_t unmixed) {
+  VisibilitySums sums;
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    make_packets(from, packet + 1);
+    add_visibility(sums, from, packet, look, groups, group);
   }
   return sums;
 }

@@ -24,7 +24,13 @@ struct Points {
 struct Strata {
   std::array<Vec2, kPacketsMax> base;
   float size = 1;
-  explicit Strata(uint32_t packets) : base{} {
+  // A place in a part of a stratum in one dimension, 0..1.
+  float place(uint32_t part, float inside) const {
+    // Both digits of the part count here: there are `packets` parts.
+    return (static_cast<float>(part % packet_count) + inside) / static_cast<float>(packet_count);
+  }
+  uint32_t packet_count = 1;
+  explicit Strata(uint32_t packets) : base{}, packet_count(packets) {
     // From the last digit of the packet to the first: each halves what the ones before it left.
     for (uint32_t parts = packets, shift = 0; parts >= 4; parts /= 4, shift += 2) {
       size *= 0.5f;
@@ -69,5 +75,20 @@ struct VisibilitySums {
 // that it lacks.
 VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint32_t packet_count,
                                uint32_t unmixed);
+
+// What an element would receive of the pieces of a group that it may see, if nothing were in their way.
+struct GroupLook {
+  Rgb irradiance;  // W/m2
+  float strength;  // its luminance
+  uint32_t count;  // pieces that reach it
+  std::array<uint8_t, kGroupPiecesMax> piece;
+  std::array<float, kGroupPiecesMax> strength_until;  // summed up to each of them
+};
+void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::array<Vec3, 4>& corners,
+                     const EmitterGroups& groups, uint32_t group, uint64_t pieces);
+
+// The same as above for a group: rays go to its pieces by what they bring.
+VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
+                               uint32_t group, uint32_t packet_count, uint32_t unmixed);
 
 }  // namespace patchlight

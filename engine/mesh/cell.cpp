@@ -112,9 +112,14 @@ float cell_area(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint
 }
 
 float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames) {
-  double area = 0;
-  for (uint32_t f = 0; f < faces.size(); ++f) area += cell_area(frames, f, 0, 0);
-  return static_cast<float>(std::sqrt(area));
+  // A sun or a sky may be as large and as far as it likes: sizes come from what light falls on.
+  double lit = 0, all = 0;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const double area = cell_area(frames, f, 0, 0);
+    all += area;
+    if (largest(faces.reflectance[f]) > 0 || largest(faces.emission[f]) == 0) lit += area;
+  }
+  return static_cast<float>(std::sqrt(lit > 0 ? lit : all));
 }
 
 float longest_edge(const std::array<Vec3, 4>& corners) {

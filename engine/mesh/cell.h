@@ -94,7 +94,7 @@ inline Vec2 find_face_parameters(const FaceFrameTable& frames, uint32_t face, Ve
 std::array<Vec2, 4> cell_corner_parameters(bool triangle, uint32_t cell, uint32_t level);
 std::array<Vec3, 4> cell_corners(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint32_t level);
 float cell_area(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint32_t level);
-// The square root of the area of all faces.
+// The square root of the area of all faces that are no mere lamps (of all, if all are).
 float find_scene_scale(const FaceTable& faces, const FaceFrameTable& frames);
 float longest_edge(const std::array<Vec3, 4>& corners);
 Vec3 cell_centre(const FaceFrameTable& frames, uint32_t face, uint32_t cell, uint32_t level);

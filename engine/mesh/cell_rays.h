@@ -3,7 +3,8 @@
 
 #include "engine/base/sampling.h"
 #include "engine/mesh/cell.h"
-#include "engine/mesh/surfaces.h"
+#include "engine/tables.h"
+#include "engine/trace/tracer.h"
 
 namespace patchlight {
 
@@ -16,7 +17,9 @@ enum RayPurpose : uint32_t {
   kAimedProbeRays,
   kEmissionRays,
   kShareRays,
-  kLeakRays
+  kLeakRays,
+  kSightRays,
+  kReachRays
 };
 
 // Directions: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins take the
@@ -63,21 +66,5 @@ CellRays make_cell_rays(const FaceTable& faces, const CellName& cell, RayPurpose
 
 // Packet `packet` (of grid.packet_count()): origins spread over the cell, just off its face.
 void make_ray_packet(HitPacket& rays, const CellRays& from, const FaceFrameTable& frames, uint32_t packet);
-
-// Those of the rays `active` that met a back side: a bit a ray.
-inline uint32_t find_backs(const HitPacket& packet, const FaceTable& faces, uint32_t active) {
-  const RayPacket& r = packet.ray;
-  uint32_t back = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (!(active >> k & 1u) || packet.face[k] == kNone) continue;
-    const Vec3 direction(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
-    if (dot(direction, faces.normal[packet.face[k]]) >= 0) back |= 1u << k;
-  }
-  return back;
-}
-
-// Of the rays' origins (points just off the face with this frame), those that lie inside a solid: from there
-// only back sides are seen, along the normal and in six directions about it.
-uint32_t find_buried(const Surfaces& surfaces, const Frame& frame, const RayPacket& rays, uint32_t active);
 
 }  // namespace patchlight

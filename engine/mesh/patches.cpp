@@ -2,6 +2,7 @@
 #include "engine/mesh/patches.h"
 
 #include "engine/base/parallel.h"
+#include "engine/mesh/buried.h"
 
 #include <algorithm>
 #include <atomic>
@@ -48,13 +49,13 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   const FaceFrameTable& frames = surfaces.frames;
   const FaceLinkTable& links = surfaces.smooth_links;
   const uint64_t patch_count_max = settings.count_max;
-  const float scale = surfaces.scale * settings.size_factor;
+  const auto find_scale = [&](uint32_t face) { return surfaces.reach[face] * settings.size_factor; };
   // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
-  float edge_max = kPatchEdgeMax * scale;
+  float edge_max = kPatchEdgeMax;  // scales
   const auto start_level = [&](uint32_t face) {
     uint32_t level = 0;
     float edge = longest_edge(cell_corners(frames, face, 0, 0));
-    while (edge > edge_max && level < kLevelMax - 1) edge /= 2, ++level;
+    while (edge > edge_max * find_scale(face) && level < kLevelMax - 1) edge /= 2, ++level;
     return level;
   };
   const auto count_at_start = [&] {
@@ -63,7 +64,7 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
     return count;
   };
   const uint64_t room_at_start = patch_count_max > faces.size() ? (patch_count_max - faces.size()) / 2 : 0;
-  while (edge_max < scale && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
+  while (edge_max < 1 && count_at_start() > faces.size() + room_at_start) edge_max *= 1.25f;
   PatchTable patches = make_leaves(faces, frames, start_level);
   balance_leaves(patches, frames, links);
   const RayGrid grid = make_ray_grid(kProbeRayCount);
@@ -74,7 +75,7 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
     for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
       for (size_t row = begin; row < end; ++row) {
         const auto [face, cell, level] = name_cell(patches, row);
-        const float edge = longest_edge(cell_corners(frames, face, cell, level));
+        const float edge = longest_edge(cell_corners(frames, face, cell, level)), scale = find_scale(face);
         if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
         const Probe probe =
             probe_cell(make_cell_rays(faces, {face, cell, level}, kProbeRays, settings.seed, grid), surfaces);
@@ -110,7 +111,6 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
                                  const PatchSettings& settings) {
   const FaceFrameTable& frames = surfaces.frames;
   const float size_factor = settings.size_factor;
-  const float edge_min = kUnevenEdgeMin * surfaces.scale * size_factor;
   const float area_factor = size_factor * size_factor;
   const float share = kUnevenShare * area_factor;
   double power = 0;
@@ -123,7 +123,7 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
       const uint32_t face = patches.face[row], level = patches.level[row];
       if (patches.exposed[row] == 0 || level >= kLevelMax - 2) continue;
       const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
-      if (size < 2 * edge_min) continue;
+      if (size < 2 * kUnevenEdgeMin * surfaces.reach[face] * size_factor) continue;
       for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
         for (const uint32_t other : find_neighbours(patches, frames, surfaces.links, row, edge)) {
           if (other == kNone || patches.exposed[other] == 0) continue;

@@ -4,6 +4,7 @@
 
 #include "engine/mesh/cell_rays.h"
 #include "engine/mesh/quadtree.h"
+#include "engine/mesh/surfaces.h"
 
 namespace patchlight {
 

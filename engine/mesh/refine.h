@@ -15,8 +15,8 @@ struct RefineInput {
 };
 
 struct RefineLimits {
-  float threshold;           // share of the larger of two radiosities
-  float patch_size_min = 0;  // lengths
+  float threshold;                        // share of the larger of two radiosities
+  std::span<const float> patch_size_min;  // a row a face, lengths
   uint64_t patch_count_max;
 };
 

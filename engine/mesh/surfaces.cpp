@@ -1,9 +1,12 @@
 // Faces to surfaces.
 #include "engine/mesh/surfaces.h"
 
+#include "engine/base/parallel.h"
 #include "engine/mesh/cell.h"
+#include "engine/mesh/cell_rays.h"
 #include "engine/mesh/face_links.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -36,6 +39,55 @@ bool is_between(Rgb value, float low, float high) {
   return true;
 }
 
+// What a face sees is as large as the scene, or smaller by powers of two: a room on a wide ground is meshed
+// as if it stood alone. In a room alone the mean distance is about a quarter of the scale. A narrow gap does
+// not count: none is smaller than what half of the area sees, of all that looks into the scene and not out of
+// it.
+std::vector<float> find_reach(const Surfaces& surfaces) {
+  constexpr uint32_t kRays = 32;
+  constexpr float kReachPerDistance = 8, kInside = 0.75f;
+  std::vector<float> reach(surfaces.faces.size()), inside(reach.size());
+  const RayGrid grid = make_ray_grid(kRays);
+  for_rows(reach.size(), 64, [&](size_t begin, size_t end) {
+    HitPacket packet;
+    for (auto face = static_cast<uint32_t>(begin); face < end; ++face) {
+      const CellRays rays = make_cell_rays(surfaces.faces, {face, 0, 0}, kReachRays, 1, grid);
+      float sum = 0, hits = 0;
+      for (uint32_t k = 0; k < grid.packet_count(); ++k) {
+        make_ray_packet(packet, rays, surfaces.frames, k);
+        find_hits(surfaces.tracer, packet, 0xffff);
+        for (uint32_t ray = 0; ray < kPacketSize; ++ray) {
+          const bool hit = packet.face[ray] != kNone;
+          sum += hit ? std::min(packet.ray.far_distance[ray], surfaces.scale) : surfaces.scale;
+          hits += hit ? 1.0f : 0.0f;
+        }
+      }
+      const auto count = static_cast<float>(grid.ray_count());
+      reach[face] = kReachPerDistance * sum / count;
+      inside[face] = hits / count;
+    }
+  });
+  std::vector<std::pair<float, double>> seen;  // distance, area
+  double area = 0;
+  for (uint32_t face = 0; face < reach.size(); ++face) {
+    if (inside[face] < kInside) continue;
+    seen.emplace_back(reach[face], double{cell_area(surfaces.frames, face, 0, 0)});
+    area += seen.back().second;
+  }
+  std::sort(seen.begin(), seen.end());
+  float typical = surfaces.scale;
+  for (double before = 0; const auto& [distance, own] : seen) {
+    typical = distance;
+    if ((before += own) >= area / 2) break;
+  }
+  for (float& own : reach) {
+    const float wanted = std::max(own, typical);
+    own = surfaces.scale;
+    while (own > wanted && own > 1e-6f * surfaces.scale) own /= 2;
+  }
+  return reach;
+}
+
 }  // namespace
 
 void check_faces(const FaceTable& faces) {
@@ -66,8 +118,15 @@ std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces) {
   FaceLinkTable smooth_links = make_smooth_links(links, faces);
   Tracer tracer = make_tracer(faces);
   const float scale = find_scene_scale(faces, frames);
-  return std::make_shared<const Surfaces>(Surfaces{std::move(faces), std::move(frames), std::move(links),
-                                                   std::move(smooth_links), std::move(tracer), scale});
+  const auto surfaces = std::make_shared<Surfaces>(Surfaces{std::move(faces),
+                                                            std::move(frames),
+                                                            std::move(links),
+                                                            std::move(smooth_links),
+                                                            std::move(tracer),
+                                                            scale,
+                                                            {}});
+  surfaces->reach = find_reach(*surfaces);
+  return surfaces;
 }
 
 }  // namespace patchlight

@@ -14,7 +14,8 @@ struct Surfaces {
   FaceLinkTable links;         // within polygons
   FaceLinkTable smooth_links;  // and across smooth edges between them
   Tracer tracer;
-  float scale = 0;  // lengths: the square root of the area of all faces
+  float scale = 0;           // lengths: find_scene_scale()
+  std::vector<float> reach;  // a row a face, lengths: the same for what lies before it, at most `scale`
 };
 
 // Throws std::invalid_argument, with the column and the row, where faces are not what tables.h says.

@@ -72,7 +72,7 @@ double forecast_elements(double start, double patches, const Counts& counts, con
 // Rays to lamps from all elements: fewer for each lamp where there are many.
 double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
   if (!counts.are_aimed) return 0;
-  const double lamps = std::min(counts.lamps, static_cast<double>(kAimedLampsMax));
+  const double lamps = std::min(counts.lamps, 64.0);
   return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 256, 0.4);
 }
 

@@ -1,5 +1,6 @@
 // Where the power went: measured by the rays that patches send, against what patches say that they received.
 #include "engine/base/parallel.h"
+#include "engine/mesh/buried.h"
 #include "engine/mesh/cell_rays.h"
 #include "engine/solve/solve.h"
 

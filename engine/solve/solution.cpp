@@ -109,11 +109,11 @@ uint64_t count_bytes(const Solution& s) {
   const auto add = [&](const auto&... tables) { (for_each_column(add_column, tables), ...); };
   const auto add_columns = [&](const auto&... columns) { (add_column("", columns), ...); };
   if (s.surfaces) add(s.surfaces->frames, s.surfaces->links, s.surfaces->smooth_links);
-  add(s.mesh.patches, s.mesh.elements, s.mesh.patch_vertices, s.mesh.element_vertices,
-      s.transport.light_lists, s.transport.views, s.transport.receivers, s.transport.hits);
-  add_columns(s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh, s.light.sharp,
-              s.light.smooth, s.light.smooth_added, s.light.direct, s.light.direct_error, s.light.coarse,
-              s.light.coarse_error);
+  add(s.mesh.patches, s.mesh.elements, s.mesh.patch_vertices, s.mesh.element_vertices, s.transport.sights,
+      s.transport.receivers, s.transport.hits);
+  add_columns(s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh, s.transport.aiming,
+              s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.direct, s.light.direct_error,
+              s.light.coarse, s.light.coarse_error);
   return bytes;
 }
 

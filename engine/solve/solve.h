@@ -14,6 +14,7 @@
 #pragma once
 
 #include "engine/base/parallel.h"
+#include "engine/light/emitters.h"
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surfaces.h"
 #include "engine/settings.h"
@@ -51,10 +52,11 @@ struct PowerLedger {
 
 // What light travels along.
 struct Transport {
-  LightListTable light_lists;
-  LampViewTable views;      // a row an element; until the mesh is frozen
-  ReceiverTable receivers;  // of the patches
-  HitTable hits;            // a row of rays a receiver
+  EmitterGroups groups;
+  std::vector<uint8_t> aiming;  // a row a polygon: 1: it aims at the emitters, 0: its rows see them
+  SightTable sights;            // a row a receiver
+  ReceiverTable receivers;      // of the patches
+  HitTable hits;                // a row of rays a receiver
 };
 
 // In W/m2. The irradiance of an element, under every solver: its row of `sharp` and, at its centre, the

@@ -1,12 +1,12 @@
 // Faces to the meshes that a solution stands on: starting meshes, rounds of refinement, the final mesh.
 #include "engine/light/direct.h"
-#include "engine/light/light_lists.h"
 #include "engine/mesh/patches.h"
 #include "engine/mesh/refine.h"
 #include "engine/solve/sizes.h"
 #include "engine/solve/solution.h"
 #include "engine/transport/gather.h"
 #include "engine/transport/receivers.h"
+#include "engine/transport/sights.h"
 
 #include <algorithm>
 #include <atomic>
@@ -66,8 +66,9 @@ DirectRays final_rays(const SolverSettings& settings) {
 void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays) {
   s.log.direct_ray_count += find_exposed(s.mesh, rows, *s.surfaces, s.settings.seed);
   s.log.direct_ray_count +=
-      find_direct({s.light.direct, s.light.direct_error, s.transport.views}, rows,
-                  {*s.surfaces, s.mesh.elements, s.transport.light_lists}, rays, s.settings.seed);
+      find_direct({s.light.direct, s.light.direct_error}, rows,
+                  {*s.surfaces, s.mesh, s.transport.receivers, s.transport.groups, s.transport.sights}, rays,
+                  s.settings.seed);
 }
 
 PatchSettings make_patch_settings(const Solution& s) {
@@ -97,7 +98,7 @@ void find_coarse(Solution& s, const Rows& rows) {
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
   std::vector<Rgb> emitted(count), sent(count), next(count);
-  gather_emission(emitted, rows, s.transport.light_lists);
+  gather_emission(emitted, rows, s.transport.aiming);
   s.light.coarse = emitted;
   for (size_t p = 0; p < count; ++p)
     sent[p] = s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + emitted[p]);
@@ -136,11 +137,21 @@ void find_mean_radiosity(Solution& s) {
   s.light.mean_radiosity = area > 0 ? static_cast<float>(sum / area) : 0;
 }
 
+// A row a face, lengths: what the author says, or an automatic size as the face's surroundings ask for it.
+std::vector<float> find_least_sizes(const Solution& s) {
+  const float least = find_patch_sizes(s.surfaces->faces, s.surfaces->frames, s.settings).least;
+  std::vector<float> sizes(s.surfaces->faces.size(), least);
+  if (s.settings.patch_size_min > 0 || s.settings.patch_size > 0) return sizes;
+  for (size_t face = 0; face < sizes.size(); ++face)
+    sizes[face] *= s.surfaces->reach[face] / s.surfaces->scale;
+  return sizes;
+}
+
 // Standard errors of the elements' coarse radiosities. A difference between two elements of one patch holds
 // only their share of the surface's slope, and with it of the rows' noise. The noise of direct light counts
 // for small elements only: light that few rays found on a large one is a discovery, and splitting tells what
 // it is.
-std::vector<float> find_errors(const Solution& s, float patch_size_min) {
+std::vector<float> find_errors(const Solution& s, std::span<const float> patch_size_min) {
   std::vector<float> error(s.mesh.elements.size());
   for_rows(error.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
@@ -149,7 +160,8 @@ std::vector<float> find_errors(const Solution& s, float patch_size_min) {
           s.light.coarse_error[patch] * cell_size(s.mesh.elements.level[row] - s.mesh.patches.level[patch]);
       const float edge = longest_edge(cell_corners(s.surfaces->frames, s.mesh.elements.face[row],
                                                    s.mesh.elements.cell[row], s.mesh.elements.level[row]));
-      const float direct = edge > kLargeElement * patch_size_min ? 0 : s.light.direct_error[row];
+      const float direct =
+          edge > kLargeElement * patch_size_min[s.mesh.elements.face[row]] ? 0 : s.light.direct_error[row];
       error[row] =
           largest(s.surfaces->faces.reflectance[s.mesh.elements.face[row]]) * std::hypot(direct, slope);
     }
@@ -167,18 +179,10 @@ void inherit(std::vector<T>& column, std::span<const uint32_t> parent) {
 }
 
 void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
-  for_rows(s.mesh.elements.size(), 512, [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row)
-      if (marks[row])
-        // Not what was settled before: a neighbour may have found light since.
-        s.transport.views.settled[row] = find_settled(s.transport.views, s.mesh.elements, s.surfaces->frames,
-                                                      s.surfaces->links, static_cast<uint32_t>(row));
-  });
   std::vector<uint32_t> parent;
   s.mesh.elements = split_leaves(s.mesh.elements, s.surfaces->frames, marks, parent);
   inherit(s.light.direct, parent);
   inherit(s.light.direct_error, parent);
-  for_each_row_column([&](const char*, auto& column) { inherit(column, parent); }, s.transport.views);
   inherit(s.mesh.reasons, parent);
   s.mesh.fresh.clear();
   for (uint32_t row = 0; row < parent.size(); ++row)
@@ -208,8 +212,13 @@ bool split_patches(Solution& s) {
   std::vector<uint32_t> parent, row_before, fresh_rows;
   const PatchTable before = std::move(s.mesh.patches);
   s.mesh.patches = split_leaves(before, s.surfaces->frames, marks, parent);
-  s.transport.receivers =
-      split_receivers(s.transport.receivers, parent, s.mesh.patches, *s.surfaces, row_before);
+  const ReceiverTable receivers_before = std::move(s.transport.receivers);
+  s.transport.receivers = split_receivers(receivers_before, parent, s.mesh.patches, *s.surfaces, row_before);
+  std::vector<uint32_t> receiver_before(s.transport.receivers.size());
+  for (size_t r = 0; r < receiver_before.size(); ++r)
+    receiver_before[r] =
+        receivers_before.receiver_of[parent[s.transport.receivers.patch[s.transport.receivers.first[r]]]];
+  s.transport.sights = inherit_sights(s.transport.sights, receiver_before);
   move_rows(s.transport.hits, row_before, before, parent);
   for (uint32_t row = 0; row < row_before.size(); ++row)
     if (row_before[row] == kNone) fresh_rows.push_back(row);
@@ -236,7 +245,7 @@ bool split_patches(Solution& s) {
   s.log.trace_seconds += watch.lap();
   const Rows rows = get_rows(s);
   std::vector<Rgb> emitted(s.mesh.patches.size());
-  gather_emission(emitted, rows, s.transport.light_lists);
+  gather_emission(emitted, rows, s.transport.aiming);
   step_coarse(s, rows, find_patch_means(s, s.light.direct), emitted);
   s.log.solve_seconds += watch.lap();
   return true;
@@ -287,13 +296,12 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
                                   find_patch_sizes(s.surfaces->faces, s.surfaces->frames, settings).start);
   find_element_patches(s);
   s.log.split_seconds += watch.lap();
-  s.transport.light_lists = make_light_lists(*s.surfaces, s.mesh.patches, s.transport.receivers);
+  s.transport.groups = make_emitter_groups(s.surfaces->faces, s.surfaces->frames);
+  s.transport.aiming = find_aiming(*s.surfaces, s.transport.groups, s.mesh.patches, s.transport.receivers);
+  s.transport.sights = find_sights(get_rows(s).by, s.transport.groups, s.transport.aiming, ray_count);
   const size_t count = s.mesh.elements.size();
   s.light.direct.resize(count);
   s.light.direct_error.resize(count);
-  s.transport.views.seen.assign(count, 0);
-  s.transport.views.hidden.assign(count, 0);
-  s.transport.views.settled.assign(count, 0);
   s.mesh.reasons.assign(count, SplitReason::kStart);
   s.mesh.fresh = all_rows(count);
   find_direct_of(s, s.mesh.fresh, kStartRays);
@@ -317,7 +325,7 @@ bool refine(Solution& s) {
   const WorkersScope scope(s.workers);
   Stopwatch watch, whole;
   const uint64_t rays_before = s.log.direct_ray_count;
-  const float patch_size_min = find_patch_sizes(s.surfaces->faces, s.surfaces->frames, s.settings).least;
+  const std::vector<float> patch_size_min = find_least_sizes(s);
   const float threshold = s.settings.threshold;
   const std::vector<float> error = find_errors(s, patch_size_min);
   const RefineInput input{s.mesh.elements, s.light.direct, error, s.mesh.fresh, s.light.mean_radiosity};
@@ -346,7 +354,6 @@ void freeze(Solution& s) {
   Stopwatch watch;
   find_direct_of(s, find_shadow_edges(s), final_rays(s.settings));
   s.log.trace_seconds += watch.lap();
-  s.transport.views = {};
   s.mesh.fresh = {};
   s.mesh.element_vertices = make_vertices(s.mesh.elements, s.surfaces->frames, s.surfaces->smooth_links);
   for (PatchTable* table : {&s.mesh.elements, &s.mesh.patches})

@@ -13,15 +13,12 @@ namespace {
 
 constexpr uint32_t kSourceCount = 400;
 
-// The rays of all rows, and a factor for each element and lamp aimed at.
+// The rays of all rows, and a factor for each element and group of emitters that it may see.
 uint64_t count_factors(const Solution& s) {
-  const FaceTable& faces = s.surfaces->faces;
   uint64_t count = uint64_t{s.transport.hits.ray_count} * s.transport.receivers.size();
-  for (uint32_t face = 0; face < faces.size(); ++face) {
-    const uint64_t elements = s.mesh.elements.face_first[face + 1] - s.mesh.elements.face_first[face];
-    const uint32_t list = s.transport.light_lists.list_of[faces.polygon[face]];
-    count +=
-        elements * (s.transport.light_lists.list_first[list + 1] - s.transport.light_lists.list_first[list]);
+  for (const uint32_t patch : s.mesh.element_patch) {
+    const uint32_t receiver = s.transport.receivers.receiver_of[patch];
+    count += s.transport.sights.first[receiver + 1] - s.transport.sights.first[receiver];
   }
   return count;
 }
@@ -38,7 +35,7 @@ const PassReport& advance(Solution& s) {
   report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
   if (report.pass == 1) {
     s.light.sharp = s.light.direct;
-    gather_emission(s.light.smooth_added, rows, s.transport.light_lists);
+    gather_emission(s.light.smooth_added, rows, s.transport.aiming);
     report.ray_count = s.log.direct_ray_count;
     s.log.factor_count += count_factors(s);
   } else if (report.pass == 2) {

@@ -2,7 +2,7 @@
 #include "engine/transport/gather.h"
 
 #include "engine/base/parallel.h"
-#include "engine/light/light_lists.h"
+#include "engine/mesh/buried.h"
 #include "engine/mesh/quadtree.h"
 
 #include <algorithm>
@@ -214,7 +214,7 @@ void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares&
     packet.value[k] = kernel > 0 && density > 0 ? kernel / density * heuristic(density, row_density) : 0;
     packet.source[k] = source;
     packet.element[k] = point.element;
-    target += ray_offset(target) * sources.normal[source];
+    target += ray_offset(origin, target) * sources.normal[source];
     const Vec3 way = target - origin;
     RayPacket& rays = packet.rays;
     rays.origin_x[k] = origin.x, rays.origin_y[k] = origin.y, rays.origin_z[k] = origin.z;
@@ -353,7 +353,7 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 
 }  // namespace
 
-void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const LightListTable& lists) {
+void gather_emission(std::span<Rgb> irradiance, const Rows& rows, std::span<const uint8_t> aiming) {
   const FaceTable& faces = rows.by.surfaces.faces;
   // Few patches emit: a byte a patch stays in the cache.
   std::vector<uint8_t> emits(rows.by.patches.size());
@@ -362,14 +362,12 @@ void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const LightLis
     RowScratch scratch;
     for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
       Rgb sum(0);
-      // Polygons that share a receiver aim at the same lamps.
+      // Polygons that share a receiver aim alike.
       const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
       const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
-      for (const uint32_t patch : find_row(scratch, rows, row).patch) {
-        if (patch >= kHitBuried || !emits[patch]) continue;
-        const uint32_t face = rows.by.patches.face[patch];
-        if (!is_aimed(lists, polygon, face)) sum += faces.emission[face];
-      }
+      if (!aiming[polygon])
+        for (const uint32_t patch : find_row(scratch, rows, row).patch)
+          if (patch < kHitBuried && emits[patch]) sum += faces.emission[rows.by.patches.face[patch]];
       const uint32_t valid = rows.hits.valid_count(row);
       spread(irradiance, rows.by.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
     }

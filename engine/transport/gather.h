@@ -9,7 +9,7 @@ namespace patchlight {
 
 // Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
 // meets and that is not aimed at. irradiance: a row a patch, overwritten.
-void gather_emission(std::span<Rgb> irradiance, const Rows& rows, const LightListTable& lists);
+void gather_emission(std::span<Rgb> irradiance, const Rows& rows, std::span<const uint8_t> aiming);
 
 // Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send. difference: half the
 // difference of two independent halves of each row's rays, an estimate of the standard error; empty: not

@@ -42,8 +42,9 @@ uint32_t find_normal_kind(Vec3 n) {
 // or partly buried.
 bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patches, const Surfaces& surfaces,
                     uint64_t seed) {
-  const auto& [faces, frames, links, smooth_links, tracer, scale] = surfaces;
+  const FaceTable& faces = surfaces.faces;
   const auto [face, cell, level] = name_cell(patches, patch);
+  const float scale = surfaces.reach[face];
   const Probe probe = probe_cell(
       make_cell_rays(faces, {face, cell, level}, kShareRays, seed, make_ray_grid(kPacketSize)), surfaces);
   const bool buried = probe.buried_count > 0;
@@ -51,12 +52,13 @@ bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patc
   const float reach = kPacketSize / std::max(probe.inverse_distance_sum, 1e-6f / scale);
   candidate.patch = patch;
   candidate.span = std::clamp(kSpanPerDistance * reach, kSpanMin * scale, kSpanMax * scale);
-  if (cell_area(frames, face, 0, 0) > kSmallFace * kSmallFace * candidate.span * candidate.span) return false;
-  const float steps = std::log2(reach / scale) / std::log2(kReachStep) + kReachSteps - 1;
+  if (cell_area(surfaces.frames, face, 0, 0) > kSmallFace * kSmallFace * candidate.span * candidate.span)
+    return false;
+  const float steps = std::log2(reach / surfaces.scale) / std::log2(kReachStep) + kReachSteps - 1;
   const auto reach_kind = static_cast<uint32_t>(std::clamp(steps, 0.0f, kReachSteps - 1.0f));
   candidate.kind =
       find_normal_kind(faces.normal[face]) * (kReachSteps + 1) + (buried ? kReachSteps : reach_kind);
-  candidate.centre = cell_centre(frames, face, cell, level);
+  candidate.centre = cell_centre(surfaces.frames, face, cell, level);
   return true;
 }
 
@@ -158,13 +160,13 @@ ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint3
 
 ReceiverTable make_receivers(const PatchTable& patches, const Surfaces& surfaces, uint64_t seed,
                              uint64_t& ray_count) {
-  const float scale = surfaces.scale;
   std::vector<Candidate> all(patches.size());
   std::atomic<uint64_t> probed{0};
   for_rows(patches.size(), 256, [&](size_t begin, size_t end) {
     uint64_t rays = 0;
     for (size_t row = begin; row < end; ++row) {
       all[row].patch = kNone;
+      const float scale = surfaces.reach[patches.face[row]];
       const float largest_area = kSmallFace * kSmallFace * kSpanMax * kSpanMax * scale * scale;
       if (cell_area(surfaces.frames, patches.face[row], 0, 0) > largest_area) continue;
       rays += kPacketSize;

@@ -2,6 +2,7 @@
 #include "engine/transport/rows.h"
 
 #include "engine/base/parallel.h"
+#include "engine/mesh/buried.h"
 
 #include <algorithm>
 #include <bit>

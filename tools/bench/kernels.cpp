@@ -52,7 +52,6 @@ struct Bench {
 
 // What the kernels write.
 struct Scratch {
-  LampViewTable views;
   std::vector<Rgb> direct, irradiance;
   std::vector<float> error;
   std::vector<float> exposed;
@@ -69,13 +68,12 @@ struct Tapes {
 
 uint64_t direct_light(Scratch& scratch, const Bench& b) {
   const PatchTable& elements = b.refined.mesh.elements;
-  scratch.views.settled.assign(elements.size(), 0);  // every lamp gets rays
-  scratch.views.seen.assign(elements.size(), 0);
-  scratch.views.hidden.assign(elements.size(), 0);
   scratch.direct.resize(elements.size());
   scratch.error.resize(elements.size());
-  return find_direct({scratch.direct, scratch.error, scratch.views}, b.rows,
-                     {*b.surfaces, elements, b.refined.transport.light_lists}, {}, b.settings.seed);
+  return find_direct({scratch.direct, scratch.error}, b.rows,
+                     {*b.surfaces, b.refined.mesh, b.refined.transport.receivers, b.refined.transport.groups,
+                      b.refined.transport.sights},
+                     {}, b.settings.seed);
 }
 
 uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {

@@ -214,12 +214,28 @@ void warn_not_converged(const Scene& scene, const RunReport& report, std::span<c
                         Talk& talk) {
   const double until = scene.solver.until;
   if (report.stopped_reason != "passes" || until <= 0 || passes.front().added_largest <= 0) return;
+  // Both must fall below `until`: the larger one is what keeps it from the end.
+  const double largest = double{passes.back().added_largest} / passes.front().added_largest;
+  const double power =
+      sum_channels(passes.back().added_power) / std::max(sum_channels(passes.front().added_power), 1e-300);
   say_warning(
       talk, "not-converged",
-      fmt::format("pass {} still added {:.2g} % of what pass 1 added, and until is {:g} %: more passes would "
-                  "change the picture",
-                  passes.size(), 100 * passes.back().added_largest / passes.front().added_largest,
-                  100 * until),
+      fmt::format("pass {} still added {:.2g} % of the {} that pass 1 added, and until is {:g} %: more "
+                  "passes would change the picture",
+                  passes.size(), 100 * std::max(largest, power),
+                  power > largest ? "power" : "largest radiosity", 100 * until),
+      scene.file);
+}
+
+// Where the ledger does not close, light is missing or too much somewhere.
+constexpr double kClosureTold = 0.01;
+void warn_not_closed(const Scene& scene, const RunReport& report, Talk& talk) {
+  if (!report.power || report.power->closure_error <= kClosureTold) return;
+  say_warning(
+      talk, "not-closed",
+      fmt::format("{:.2g} % of the emitted power is not accounted for: somewhere light is too bright or too "
+                  "dark; --quality 4 may help, surfaces that lie in one another may be the cause",
+                  100 * report.power->closure_error),
       scene.file);
 }
 
@@ -262,6 +278,7 @@ int render(const Options& options, Talk& talk) {
   write_report(made, task, report_path, whole);
 
   warn_not_converged(scene, report, made.solution.log.passes, talk);
+  warn_not_closed(scene, report, talk);
   say_diagnostics(talk, describe_leaks(scene, report.health.leaks));
   say_summary(made, task, talk);
   if (!options.json) {

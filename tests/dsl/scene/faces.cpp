@@ -212,7 +212,7 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
 
 TEST_CASE("polygons that single precision cannot hold are told, and never all of them left out") {
   const std::string quads =
-      "  - {id: a, quad: {size: [1, 1]}, material: lamp}\n  - {id: b, quad: {size: [1, 1], center: ";
+      "  - {id: a, quad: {size: [1, 1]}, material: white}\n  - {id: b, quad: {size: [1, 1], center: ";
   const Loaded apart = load(kHead + quads + "[1e9, 0, 0]}, material: white}\n");
   REQUIRE(apart.errors.size() == 1);
   CHECK(apart.errors[0].slug == "coordinate-too-large");

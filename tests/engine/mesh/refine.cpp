@@ -38,8 +38,9 @@ Field make_field(float dark, float bright) {
 }
 
 std::vector<uint8_t> mark(const Field& field, float threshold, float size_min, uint64_t budget, float mean) {
+  const std::vector<float> sizes(field.surfaces->faces.size(), size_min);
   return mark_differing({field.elements, field.direct, field.error, field.fresh, mean}, *field.surfaces,
-                        {threshold, size_min, budget});
+                        {threshold, sizes, budget});
 }
 
 ptrdiff_t count_marked(const std::vector<uint8_t>& marks) {

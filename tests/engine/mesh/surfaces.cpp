@@ -44,8 +44,7 @@ TEST_CASE("tables: no column is missing from the list of its table") {
   static_assert(sizeof(FaceLinkTable) == kBytes * kColumnCount<FaceLinkTable>);
   static_assert(sizeof(PatchTable) == kBytes * kColumnCount<PatchTable>);
   static_assert(sizeof(VertexTable) == kBytes * kColumnCount<VertexTable>);
-  static_assert(sizeof(LightListTable) == kBytes * kColumnCount<LightListTable>);
-  static_assert(sizeof(LampViewTable) == kBytes * kColumnCount<LampViewTable>);
+  static_assert(sizeof(SightTable) == kBytes * kColumnCount<SightTable>);
   static_assert(sizeof(ReceiverTable) == kBytes * kColumnCount<ReceiverTable>);
   // And one number, the rays of a row.
   static_assert(sizeof(HitTable) == kBytes * kColumnCount<HitTable> + alignof(HitTable));

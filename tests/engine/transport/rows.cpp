@@ -1,5 +1,6 @@
 #include "engine/transport/rows.h"
 
+#include "engine/mesh/buried.h"
 #include "engine/mesh/quadtree.h"
 #include "engine/transport/receivers.h"
 #include "tests/scenes.h"
