@@ -40,7 +40,7 @@ struct EmitterGroups {
   std::vector<float> x, y, z;                       // lengths: centres
   std::vector<float> normal_x, normal_y, normal_z;  // times area and luminance over pi
   std::vector<float> diameter_squared;              // lengths squared
-  std::vector<uint64_t> beside;  // a row a piece: itself and those of its group next to it
+  std::vector<uint64_t> beside;                     // a row a piece: itself and those of its group next to it
   size_t size() const { return piece_first.empty() ? 0 : piece_first.size() - 1; }
   uint32_t piece_count(size_t group) const { return piece_first[group + 1] - piece_first[group]; }
   uint64_t all_pieces(size_t group) const { return ~uint64_t{0} >> (kGroupPiecesMax - piece_count(group)); }
