@@ -94,7 +94,7 @@ constexpr size_t kPiecesWanted = 1024;
 constexpr float kBeside = 1.6f;
 
 // How wide a face looks from about the middle of what reflects.
-float find_angle(const FaceTable& faces, const Emitter& lamp, Vec3 low, Vec3 high, float scale) {
+float find_angle(const Emitter& lamp, Vec3 low, Vec3 high, float scale) {
   const Vec3 nearest = clamp(lamp.centre, low, high);
   return std::min(lamp.diameter / (0.15f * scale + distance(nearest, lamp.centre)), 2.0f);
 }
@@ -146,7 +146,7 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
       for (size_t k = 0; k < lamps.size(); ++k) {
         const double share = lamps[k].area * luminance(faces.emission[lamps[k].face]) / power;
         float angle =
-            find_angle(faces, lamps[k], low, high, scale) * static_cast<float>(std::sqrt(std::sqrt(share)));
+            find_angle(lamps[k], low, high, scale) * static_cast<float>(std::sqrt(std::sqrt(share)));
         for (level[k] = 0; angle > wanted && level[k] < kPieceLevelMax; angle /= 2) ++level[k];
         count += size_t{1} << 2 * level[k];
       }
