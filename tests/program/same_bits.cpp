@@ -40,3 +40,18 @@ TEST_CASE("every shipped scene has the same bits with form factors cached and re
   }
   CHECK(count > 20);
 }
+
+TEST_CASE("a shared row whose members are split has the same bits cached and recomputed") {
+  // A sliver of four small faces shares rows; the lamp beside it splits them.
+  const Folder folder;
+  const std::string path = folder / "sliver.yaml";
+  write_bytes(path, R"(patchlight: 1
+materials: {w: {reflectance: 0.7}, sun: {emission: 500000}}
+objects:
+  - {id: sliver, polygon: [[3.79, 0.455, 2.32], [3.79, 0.455, 2.427], [3.79, 1.685, 2.427], [3.79, 1.685, 2.32]], material: w}
+  - {id: floor, quad: {center: [3, 0, 3.5], size: [6, 7]}, material: w}
+  - {id: sun, quad: {center: [3, 2.9, 3.5], size: [0.3, 0.3], normal: [0, -1, 0]}, material: sun}
+camera: {eye: [6, 3, 6], target: [3, 0, 3]}
+)");
+  CHECK(find_hash(path, "cached") == find_hash(path, "recompute"));
+}
