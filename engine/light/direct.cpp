@@ -84,7 +84,8 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
         // Stratification makes N pairs worth about 3 N random ones (measured on half screens). Where all N
         // agree, one more might not have.
         const double visible = (sums.reached + 0.5) / (sums.rays + 1.0);
-        variance += double{look.strength} * look.strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
+        variance +=
+            double{look.strength} * look.strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
       }
       out.irradiance[row] = irradiance;
       out.error[row] = static_cast<float>(std::sqrt(variance));

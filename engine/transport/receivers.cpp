@@ -153,7 +153,8 @@ ReceiverTable split_receivers(const ReceiverTable& before, std::span<const uint3
   for (uint32_t row = 0; row < before.size(); ++row) {
     if (members[row].empty()) continue;
     add_receiver(receivers, members[row], patches, surfaces);
-    // With other members its rays start elsewhere: a row that was kept would not be the one that is cast again.
+    // With other members its rays start elsewhere: a row that was kept would not be the one that is cast
+    // again.
     const bool same = members[row].size() == before.first[row + 1] - before.first[row];
     row_before.push_back(same ? row : kNone);
   }
