@@ -49,6 +49,23 @@ float find_gap(Vec3 point, const Emitter& emitter, const FaceFrameTable& frames)
   return distance(point, face_point(frames, emitter.face, emitter.cell.origin + emitter.cell.size * uv));
 }
 
+// Casts one packet of pairs; a kernel of 0 is no pair.
+void cast_pairs(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, RayPacket& rays,
+                const float (&kernel)[kPacketSize]) {
+  uint32_t active = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
+  active &= from.open[packet];
+  if (!active) return;
+  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(active >> k & 1u)) continue;
+    sums.all += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  }
+  sums.rays += static_cast<uint32_t>(std::popcount(active));
+  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+}
+
 // Adds one packet of pairs: the element's points against points of the emitter.
 void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet,
                     const Emitter& emitter) {
@@ -86,18 +103,19 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
     rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
     rays.near_distance[k] = 0, rays.far_distance[k] = 1;
   }
-  uint32_t active = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
-  active &= from.open[packet];
-  if (!active) return;
-  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (!(active >> k & 1u)) continue;
-    sums.all += kernel[k];
-    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+  cast_pairs(sums, from, packet, rays, kernel);
+}
+
+// Adds packets while they agree up to `unmixed` rays, and where they do not up to `packet_count` packets.
+template <typename Add>
+VisibilitySums sum_packets(ElementPoints& from, uint32_t packet_count, uint32_t unmixed, const Add& add) {
+  VisibilitySums sums;
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    make_packets(from, packet + 1);
+    add(sums, packet);
   }
-  sums.rays += static_cast<uint32_t>(std::popcount(active));
-  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+  return sums;
 }
 
 // The points of a packet, just off the element's face.
@@ -185,13 +203,9 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
 
 VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint32_t packet_count,
                                uint32_t unmixed) {
-  VisibilitySums sums;
-  for (uint32_t packet = 0; packet < packet_count; ++packet) {
-    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-    make_packets(from, packet + 1);
+  return sum_packets(from, packet_count, unmixed, [&](VisibilitySums& sums, uint32_t packet) {
     add_visibility(sums, from, packet, emitter);
-  }
-  return sums;
+  });
 }
 
 void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::array<Vec3, 4>& corners,
@@ -238,7 +252,6 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
   const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
   RayPacket rays;
   float kernel[kPacketSize];
-  uint32_t active = 0;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     const uint32_t stratum = 4 * ((k / 4) ^ (shuffle & 3)) + ((k % 4) ^ (shuffle >> 2 & 3));
     const Vec2 inside = make_jitter(key, 2 * (packet * kPacketSize + k));
@@ -262,34 +275,20 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
     // Over the density: what the piece was chosen by, spread over its area.
     kernel[k] = cosine * sent * jacobian / std::max(squared * squared, 1e-30f) * emitter.area *
                 luminance(groups.emission[piece]) / width;
-    active |= (kernel[k] > 0 ? 1u : 0u) << k;
     rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
     rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
     rays.near_distance[k] = 0, rays.far_distance[k] = 1;
   }
-  active &= from.open[packet];
-  if (!active) return;
-  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (!(active >> k & 1u)) continue;
-    sums.all += kernel[k];
-    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
-  }
-  sums.rays += static_cast<uint32_t>(std::popcount(active));
-  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+  cast_pairs(sums, from, packet, rays, kernel);
 }
 
 }  // namespace
 
 VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
                                uint32_t group, uint32_t packet_count, uint32_t unmixed) {
-  VisibilitySums sums;
-  for (uint32_t packet = 0; packet < packet_count; ++packet) {
-    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
-    make_packets(from, packet + 1);
+  return sum_packets(from, packet_count, unmixed, [&](VisibilitySums& sums, uint32_t packet) {
     add_visibility(sums, from, packet, look, groups, group);
-  }
-  return sums;
+  });
 }
 
 }  // namespace patchlight
