@@ -3,6 +3,7 @@
 
 #include "dsl/report/diagnostics.h"
 #include "tests/folder.h"
+#include "tests/tools/mistakes.h"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -12,20 +13,6 @@
 
 using namespace patchlight;
 using namespace patchlight::testing;
-
-namespace {
-
-template <class Call>
-std::string find_slug(Call call) {
-  try {
-    call();
-  } catch (const UserError& error) {
-    return error.diagnostics.front().slug;
-  }
-  return "";
-}
-
-}  // namespace
 
 TEST_CASE("a file appears whole, once it is committed") {
   const Folder folder;

@@ -2,6 +2,7 @@
 #include "tools/cli/command_line.h"
 
 #include "dsl/report/diagnostics.h"
+#include "tests/tools/mistakes.h"
 #include "tools/base/flag_values.h"
 #include "tools/image/false_colors.h"
 #include "tools/image/tone.h"
@@ -12,26 +13,9 @@
 #include <doctest/doctest.h>
 
 using namespace patchlight;
+using namespace patchlight::testing;
 
 namespace {
-
-// The options of words whose first one is a verb.
-Options parse_options(const std::vector<std::string>& words) {
-  const Command command = parse_command_line(words);
-  REQUIRE(command.verb != nullptr);
-  CHECK(command.verb->name == words.front());
-  return command.options;
-}
-
-// The slug and message of the UserError that the words give, or an empty string.
-std::string find_mistake(const std::vector<std::string>& words) {
-  try {
-    parse_command_line(words);
-  } catch (const UserError& error) {
-    return error.diagnostics.front().slug + ": " + error.diagnostics.front().message;
-  }
-  return "";
-}
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

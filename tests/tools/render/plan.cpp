@@ -2,12 +2,14 @@
 #include "tools/render/plan.h"
 
 #include "dsl/report/diagnostics.h"
+#include "tests/tools/mistakes.h"
 #include "tools/image/false_colors.h"
 #include "tools/image/tone.h"
 
 #include <doctest/doctest.h>
 
 using namespace patchlight;
+using namespace patchlight::testing;
 
 namespace {
 
@@ -16,16 +18,6 @@ Scene make_scene() {
   scene.file = "rooms/room.yaml";
   scene.cameras.push_back(Camera{});
   return scene;
-}
-
-template <class Call>
-std::string find_slug(Call call) {
-  try {
-    call();
-  } catch (const UserError& error) {
-    return error.diagnostics.front().slug;
-  }
-  return "";
 }
 
 }  // namespace

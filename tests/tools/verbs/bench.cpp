@@ -2,6 +2,7 @@
 #include "dsl/report/diagnostics.h"
 #include "engine/solve/sizes.h"
 #include "tests/scenes.h"
+#include "tests/tools/mistakes.h"
 #include "tools/bench/apart.h"
 #include "tools/bench/figure.h"
 #include "tools/bench/measure.h"
@@ -12,27 +13,7 @@
 #include <doctest/doctest.h>
 
 using namespace patchlight;
-
-namespace {
-
-// The options of words whose first one is a verb.
-Options parse_options(const std::vector<std::string>& words) {
-  const Command command = parse_command_line(words);
-  REQUIRE(command.verb != nullptr);
-  CHECK(command.verb->name == words.front());
-  return command.options;
-}
-
-std::string find_mistake(const std::vector<std::string>& words) {
-  try {
-    parse_command_line(words);
-  } catch (const UserError& error) {
-    return error.diagnostics.front().slug + ": " + error.diagnostics.front().message;
-  }
-  return "";
-}
-
-}  // namespace
+using namespace patchlight::testing;
 
 TEST_CASE("bench with all of its flags, and without any") {
   const Options options = parse_options({"bench", "a.yaml", "b.yaml", "--only", "growth,threads", "--json",
