@@ -51,13 +51,6 @@ Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const
   return emitter;
 }
 
-std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames) {
-  std::vector<Emitter> emitters;
-  for (uint32_t f = 0; f < faces.size(); ++f)
-    if (largest(faces.emission[f]) > 0) emitters.push_back(make_emitter(faces, frames, {f}));
-  return emitters;
-}
-
 float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter) {
   const Vec3 way = emitter.centre - point;
   const float distance_squared = dot(way, way);
@@ -92,6 +85,14 @@ constexpr uint32_t kPieceLevelMax = 4;
 constexpr size_t kPiecesWanted = 1024;
 // Pieces no further off than so many times the nearest are beside one: on a grid, all eight.
 constexpr float kBeside = 1.6f;
+
+// All faces that emit, in their order.
+std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames) {
+  std::vector<Emitter> emitters;
+  for (uint32_t f = 0; f < faces.size(); ++f)
+    if (largest(faces.emission[f]) > 0) emitters.push_back(make_emitter(faces, frames, {f}));
+  return emitters;
+}
 
 // How wide a face looks from about the middle of what reflects.
 float find_angle(const Emitter& lamp, Vec3 low, Vec3 high, float scale) {

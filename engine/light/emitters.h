@@ -25,8 +25,6 @@ struct Emitter {
 };
 
 Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
-// All faces that emit, in their order.
-std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable& frames);
 
 constexpr size_t kGroupPiecesMax = 64;  // as many as fit a 64-bit mask
 
