@@ -67,6 +67,7 @@ constexpr double kSizeRatioMax = 1e7;                    // largest to smallest 
 constexpr double kEmissionMax = 1e20;                    // W/m2
 constexpr double kTemperatureMax = 1e6;                  // K: no surface is hotter
 constexpr uint32_t kPassesMax = 10'000;                  // of a scene file; --passes takes more
+constexpr double kErrorMin = 0.001, kErrorMax = 0.1;     // of the light, mean over mean
 constexpr double kQualityMin = 0.01, kQualityMax = 100;  // times the work
 constexpr size_t kErrorsShown = 20;
 constexpr size_t kWarningsShown = 20;  // of one kind

@@ -58,6 +58,7 @@ void read_solver(const Context& context, uint32_t node, SolverSettings& solver) 
   solver.threshold = static_cast<float>(value_of(map, "threshold").number[0]);
   solver.patch_count_max = static_cast<uint64_t>(value_of(map, "max_patches").integer[0]);
   solver.rays = static_cast<uint32_t>(value_of(map, "rays").integer[0]);
+  solver.error = value_of(map, "error").number[0];
   solver.quality = static_cast<float>(value_of(map, "quality").number[0]);
   solver.seed = static_cast<uint64_t>(value_of(map, "seed").integer[0]);
   solver.patch_size = to_patch_size(value_of(map, "patch_size").number[0]);

@@ -26,6 +26,7 @@ constexpr uint32_t kNone = ~uint32_t{0};
 inline float largest(Rgb c) { return std::max(c.r, std::max(c.g, c.b)); }
 // Relative luminance of linear sRGB primaries (ITU-R BT.709).
 inline float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+inline float mean_channel(Rgb c) { return (c.r + c.g + c.b) * (1 / 3.0f); }
 inline double sum_channels(const DRgb& c) { return c.r + c.g + c.b; }
 
 }  // namespace patchlight

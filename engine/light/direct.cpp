@@ -56,7 +56,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
       start_element(from, row, seed);
       const uint32_t first = sights.first[receiver], last = sights.first[receiver + 1];
       out.irradiance[row] = Rgb(0);
-      out.error[row] = 0;
+      out.error[row] = out.noise[row] = 0;
       if (elements.exposed[row] == 0 || first == last) continue;
       make_packets(from, 1);
       if (from.open[0] == 0) continue;
@@ -81,6 +81,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
         const VisibilitySums sums = find_visibility(from, look, groups, sights.group[k], most, rays.unmixed);
         cast += sums.rays;
         irradiance += sums.share() * look.irradiance;
+        out.noise[row] += sums.noise() * mean_channel(look.irradiance);
         // Stratification makes N pairs worth about 3 N random ones (measured on half screens). Where all N
         // agree, one more might not have.
         const double visible = (sums.reached + 0.5) / (sums.rays + 1.0);

@@ -17,6 +17,7 @@ uint64_t find_exposed(Mesh& mesh, std::span<const uint32_t> rows, const Surfaces
 struct DirectColumns {
   std::span<Rgb> irradiance;  // a row an element, W/m2: mean over its exposed area
   std::span<float> error;     // a row an element: standard error of its luminance, W/m2
+  std::span<float> noise;  // a row an element: half the difference of two halves of its rays, channels' mean
 };
 
 // Who looks at which emitters.

@@ -52,15 +52,14 @@ float find_gap(Vec3 point, const Emitter& emitter, const FaceFrameTable& frames)
 // Casts one packet of pairs; a kernel of 0 is no pair.
 void cast_pairs(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, RayPacket& rays,
                 const float (&kernel)[kPacketSize]) {
-  uint32_t active = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (kernel[k] > 0 ? 1u : 0u) << k;
-  active &= from.open[packet];
+  const uint32_t active = find_positive(kernel) & from.open[packet];
   if (!active) return;
   const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     if (!(active >> k & 1u)) continue;
-    sums.all += kernel[k];
-    if (!(blocked >> k & 1u)) sums.seen += kernel[k];
+    const uint32_t half = (k ^ k >> 2) & 1;  // a chequerboard over the strata
+    sums.all[half] += kernel[k];
+    if (!(blocked >> k & 1u)) sums.seen[half] += kernel[k];
   }
   sums.rays += static_cast<uint32_t>(std::popcount(active));
   sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));

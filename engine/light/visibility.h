@@ -65,9 +65,11 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
                        uint32_t usable);
 
 struct VisibilitySums {
-  float all = 0, seen = 0;         // of the kernel
-  uint32_t rays = 0, reached = 0;  // counts
-  float share() const { return all > 0 ? seen / all : 0; }
+  std::array<float, 2> all = {0, 0}, seen = {0, 0};  // of the kernel, over two halves of the pairs
+  uint32_t rays = 0, reached = 0;                    // counts
+  float share() const { return all[0] + all[1] > 0 ? (seen[0] + seen[1]) / (all[0] + all[1]) : 0; }
+  // A sample of its error: half the difference of the halves' shares.
+  float noise() const { return all[0] > 0 && all[1] > 0 ? 0.5f * (seen[0] / all[0] - seen[1] / all[1]) : 0; }
 };
 
 // Packets of pairs of an element and an emitter: `unmixed` rays while they agree (there is no shadow edge

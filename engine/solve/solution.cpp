@@ -112,7 +112,9 @@ uint64_t count_bytes(const Solution& s) {
   add(s.mesh.patches, s.mesh.elements, s.mesh.patch_vertices, s.mesh.element_vertices, s.transport.sights,
       s.transport.receivers, s.transport.hits);
   add_columns(s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh, s.transport.aiming,
-              s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.direct, s.light.direct_error,
+              s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.smooth_error,
+              s.transport.smoothing.leaf, s.transport.smoothing.first, s.transport.smoothing.neighbour,
+              s.transport.smoothing.weight, s.light.direct, s.light.direct_error, s.light.direct_noise,
               s.light.coarse, s.light.coarse_error);
   return bytes;
 }

@@ -18,6 +18,7 @@
 #include "engine/mesh/mesh.h"
 #include "engine/mesh/surfaces.h"
 #include "engine/settings.h"
+#include "engine/transport/smoothing.h"
 
 #include <optional>
 
@@ -57,6 +58,7 @@ struct Transport {
   SightTable sights;            // a row a receiver
   ReceiverTable receivers;      // of the patches
   HitTable hits;                // a row of rays a receiver
+  SmoothingTable smoothing;     // of what rows carry; made when the mesh is final
 };
 
 // In W/m2. The irradiance of an element, under every solver: its row of `sharp` and, at its centre, the
@@ -65,8 +67,10 @@ struct Irradiance {
   std::vector<Rgb> sharp;           // a row an element: what was found element by element
   std::vector<Rgb> smooth;          // a row a patch: what was found patch by patch
   std::vector<Rgb> smooth_added;    // a row a patch: what the last pass added to it
+  std::vector<float> smooth_error;  // a row a patch: what may be wrong in it, root mean square
   std::vector<Rgb> direct;          // a row an element: from the lamps aimed at
   std::vector<float> direct_error;  // a row an element: its standard error (luminance)
+  std::vector<float> direct_noise;  // a row an element: a sample of its error (channels' mean)
   std::vector<Rgb> coarse;          // a row a patch: all bounces, as the coarse solution forecasts them
   std::vector<float> coarse_error;  // a row a patch: its standard error (luminance)
   float mean_radiosity = 0;         // of the coarse solution, reflected light only (largest channel)

@@ -21,6 +21,8 @@ constexpr float kLargeElement = 6;       // least sizes
 constexpr double kCoarseUntil = 0.005;
 constexpr uint32_t kCoarsePassesMax = 64;
 constexpr uint32_t kPatchRoundsMax = 3;
+// Direct light is smoothed by 8 steps at most (smoothing.h).
+constexpr uint32_t kDirectStrengths = 5;
 
 // Elements: the patches, split on until they are as small as the settings want them to start.
 PatchTable make_elements(const PatchTable& patches, const Surfaces& surfaces, float patch_size) {
@@ -66,7 +68,7 @@ DirectRays final_rays(const SolverSettings& settings) {
 void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays) {
   s.log.direct_ray_count += find_exposed(s.mesh, rows, *s.surfaces, s.settings.seed);
   s.log.direct_ray_count +=
-      find_direct({s.light.direct, s.light.direct_error}, rows,
+      find_direct({s.light.direct, s.light.direct_error, s.light.direct_noise}, rows,
                   {*s.surfaces, s.mesh, s.transport.receivers, s.transport.groups, s.transport.sights}, rays,
                   s.settings.seed);
 }
@@ -88,7 +90,7 @@ void step_coarse(Solution& s, const Rows& rows, std::span<const Rgb> direct, std
   s.light.coarse_error.resize(count);
   for (size_t p = 0; p < count; ++p) {
     s.light.coarse[p] = emitted[p] + received[p];
-    s.light.coarse_error[p] = largest(difference[p]);
+    s.light.coarse_error[p] = largest(abs(difference[p]));
   }
 }
 
@@ -98,7 +100,7 @@ void find_coarse(Solution& s, const Rows& rows) {
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
   std::vector<Rgb> emitted(count), sent(count), next(count);
-  gather_emission(emitted, rows, s.transport.aiming);
+  gather_emission(emitted, {}, rows, s.transport.aiming);
   s.light.coarse = emitted;
   for (size_t p = 0; p < count; ++p)
     sent[p] = s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + emitted[p]);
@@ -183,6 +185,7 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
   s.mesh.elements = split_leaves(s.mesh.elements, s.surfaces->frames, marks, parent);
   inherit(s.light.direct, parent);
   inherit(s.light.direct_error, parent);
+  inherit(s.light.direct_noise, parent);
   inherit(s.mesh.reasons, parent);
   s.mesh.fresh.clear();
   for (uint32_t row = 0; row < parent.size(); ++row)
@@ -245,7 +248,7 @@ bool split_patches(Solution& s) {
   s.log.trace_seconds += watch.lap();
   const Rows rows = get_rows(s);
   std::vector<Rgb> emitted(s.mesh.patches.size());
-  gather_emission(emitted, rows, s.transport.aiming);
+  gather_emission(emitted, {}, rows, s.transport.aiming);
   step_coarse(s, rows, find_patch_means(s, s.light.direct), emitted);
   s.log.solve_seconds += watch.lap();
   return true;
@@ -275,6 +278,45 @@ std::vector<uint32_t> find_shadow_edges(const Solution& s) {
   return rows;
 }
 
+// Elements whose direct light is noisy, and those around them as far as smoothing looks.
+std::vector<uint32_t> find_noisy_elements(const Solution& s) {
+  constexpr int kRings = 4;
+  std::vector<uint8_t> near(s.mesh.elements.size(), 0), next;
+  for (size_t row = 0; row < near.size(); ++row) near[row] = s.light.direct_noise[row] != 0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    next = near;
+    for_rows(near.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t row = begin; row < end; ++row) {
+        if (near[row]) continue;
+        for (uint32_t edge = 0; edge < edge_count(s.surfaces->frames, s.mesh.elements.face[row]); ++edge)
+          for (const uint32_t other :
+               find_neighbours(s.mesh.elements, s.surfaces->frames, s.surfaces->smooth_links,
+                               static_cast<uint32_t>(row), edge))
+            next[row] |= other != kNone && near[other];
+      }
+    });
+    std::swap(near, next);
+  }
+  std::vector<uint32_t> rows;
+  for (uint32_t row = 0; row < near.size(); ++row)
+    if (near[row]) rows.push_back(row);
+  return rows;
+}
+
+// Less noise where emitters are seen in part. The error that is told of it is what smoothing leaves.
+void smooth_direct(Solution& s) {
+  const std::vector<uint32_t> noisy = find_noisy_elements(s);
+  if (!noisy.empty()) {
+    std::vector<float> error(s.mesh.elements.size());
+    const std::vector<Rgb> before = s.light.direct;
+    smooth_noise({s.light.direct, s.light.direct_noise, error},
+                 make_smoothing(s.mesh.elements, *s.surfaces, noisy), kDirectStrengths);
+    keep_power(s.light.direct, before, s.mesh.elements, s.surfaces->faces);
+    s.light.direct_error = std::move(error);
+  }
+  s.light.direct_noise = {};
+}
+
 }  // namespace
 
 Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSettings& settings,
@@ -302,6 +344,7 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   const size_t count = s.mesh.elements.size();
   s.light.direct.resize(count);
   s.light.direct_error.resize(count);
+  s.light.direct_noise.resize(count);
   s.mesh.reasons.assign(count, SplitReason::kStart);
   s.mesh.fresh = all_rows(count);
   find_direct_of(s, s.mesh.fresh, kStartRays);
@@ -353,6 +396,7 @@ void freeze(Solution& s) {
   const WorkersScope scope(s.workers);
   Stopwatch watch;
   find_direct_of(s, find_shadow_edges(s), final_rays(s.settings));
+  smooth_direct(s);
   s.log.trace_seconds += watch.lap();
   s.mesh.fresh = {};
   s.mesh.element_vertices = make_vertices(s.mesh.elements, s.surfaces->frames, s.surfaces->smooth_links);
@@ -364,6 +408,8 @@ void freeze(Solution& s) {
   s.light.sharp.assign(s.mesh.elements.size(), Rgb(0));
   s.light.smooth.assign(s.mesh.patches.size(), Rgb(0));
   s.light.smooth_added.assign(s.mesh.patches.size(), Rgb(0));
+  s.light.smooth_error.assign(s.mesh.patches.size(), 0);
+  s.transport.smoothing = make_smoothing(s.mesh.patches, *s.surfaces, all_rows(s.mesh.patches.size()));
   s.mesh.frozen = true;
   s.log.split_seconds += watch.lap();
 }

@@ -6,12 +6,25 @@
 // 1986).
 #include "engine/solve/solution.h"
 #include "engine/transport/gather.h"
+#include "engine/transport/smoothing.h"
 #include "engine/transport/sources.h"
+
+#include <algorithm>
 
 namespace patchlight {
 namespace {
 
 constexpr uint32_t kSourceCount = 400;
+
+// What patches receive is smoothed by 32 steps at most (smoothing.h).
+constexpr uint32_t kBounceStrengths = 7;
+// The mean absolute value of a normal error of standard deviation 1.
+constexpr double kMeanOfError = 0.8;
+// Of the error asked for, what noise of bounced light may take.
+constexpr double kRowsOfError = 0.5, kLaterOfError = 0.1;
+// Where more rays are asked for, so many times as many as a row has; so often at most; over all receivers not
+// more than so many times the rows' rays.
+constexpr uint32_t kMoreRays = 4, kMoreRounds = 3, kMoreRaysMax = 8;
 
 // The rays of all rows, and a factor for each element and group of emitters that it may see.
 uint64_t count_factors(const Solution& s) {
@@ -23,6 +36,101 @@ uint64_t count_factors(const Solution& s) {
   return count;
 }
 
+// Of all light that surfaces send on, so many W/m2 times lengths squared: what errors are shares of.
+double find_sent_power(const Solution& s) {
+  const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
+  double power = 0;
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p)
+    power +=
+        double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] *
+        luminance(s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + s.light.coarse[p]));
+  return power;
+}
+
+// What the errors of a receiver's patches are in that unit.
+std::vector<double> find_error_power(const Solution& s, std::span<const float> error) {
+  std::vector<double> power(s.transport.receivers.size(), 0);
+  for (size_t p = 0; p < error.size(); ++p)
+    power[s.transport.receivers.receiver_of[p]] +=
+        kMeanOfError * double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] * error[p] *
+        luminance(s.surfaces->faces.reflectance[s.mesh.patches.face[p]]);
+  return power;
+}
+
+// Which receivers need more rays so that their errors' sum falls to `target`: those with the largest, for a
+// ray helps most there. gain: the share of an error that more rays take away.
+std::vector<uint8_t> pick_noisy(std::span<const double> error_power, double target, double gain,
+                                size_t count_max) {
+  double sum = 0;
+  for (const double power : error_power) sum += power;
+  std::vector<uint32_t> order = all_rows(error_power.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return error_power[a] > error_power[b]; });
+  std::vector<uint8_t> asked(error_power.size(), 0);
+  for (size_t k = 0; k < std::min(order.size(), count_max) && sum > target; ++k) {
+    asked[order[k]] = 1;
+    sum -= gain * error_power[order[k]];
+  }
+  return asked;
+}
+
+// Smooths what patches receive of a bounce; returns the error that is left.
+std::vector<float> smooth_bounce(const Solution& s, std::span<Rgb> received,
+                                 std::span<const Rgb> difference) {
+  std::vector<float> noise(received.size()), error(received.size());
+  for (size_t p = 0; p < noise.size(); ++p) noise[p] = mean_channel(difference[p]);
+  const std::vector<Rgb> before(received.begin(), received.end());
+  smooth_noise({received, noise, error}, s.transport.smoothing, kBounceStrengths);
+  keep_power(received, before, s.mesh.patches, s.surfaces->faces);
+  return error;
+}
+
+// What patches receive of the first bounce, which bright places make noisy: with the rays of the rows, then
+// with more where their noise is more than the error asked for leaves to it. Returns the rays of both kinds.
+uint64_t gather_second(Solution& s, std::span<Rgb> noise) {
+  const Rows rows = get_rows(s);
+  const Elements elements{s.mesh.elements, s.mesh.element_first};
+  const std::span<const Rgb> sent = s.mesh.elements.unshot;
+  const SourceTable sources = make_sources(s.mesh.elements, *s.surfaces, sent, kSourceCount);
+  const std::span<Rgb> received = s.light.smooth_added;
+  uint64_t aimed = gather_elements(received, noise, rows, elements, sent, sources);
+  const size_t count = s.transport.receivers.size(), patch_count = received.size();
+  const double target = kRowsOfError * s.settings.error * find_sent_power(s);
+  size_t rows_left = kMoreRaysMax * count / kMoreRays;
+  std::vector<float> rays_of(count, 1);  // so many times those of a row
+  for (uint64_t round = 1; round <= kMoreRounds; ++round) {
+    std::vector<Rgb> smoothed(received.begin(), received.end());
+    const std::vector<float> error = smooth_bounce(s, smoothed, noise);
+    const double gain = 1 - std::sqrt(1.0 / (1 + kMoreRays));
+    const std::vector<uint8_t> asked = pick_noisy(find_error_power(s, error), target, gain, rows_left);
+    const auto asked_count = static_cast<size_t>(std::count(asked.begin(), asked.end(), 1));
+    if (asked_count == 0) break;
+    rows_left -= asked_count;
+    // Rows of other rays, and more of them, which nothing keeps.
+    HitTable again;
+    again.ray_count = kMoreRays * s.transport.hits.ray_count;
+    for (const uint32_t buried : s.transport.hits.buried) again.buried.push_back(kMoreRays * buried);
+    Casters by = rows.by;
+    by.grid = make_ray_grid(again.ray_count);
+    by.seed = mix_bits(s.settings.seed + (round << 32));
+    again.ray_count = by.grid.ray_count();
+    std::vector<Rgb> more(patch_count), more_noise(patch_count);
+    const uint64_t more_aimed =
+        gather_elements(more, more_noise, {by, again}, elements, sent, sources, asked);
+    aimed += more_aimed + uint64_t{again.ray_count} * asked_count;
+    for (size_t p = 0; p < patch_count; ++p) {
+      const uint32_t receiver = s.transport.receivers.receiver_of[p];
+      if (!asked[receiver]) continue;
+      const float share = kMoreRays / (kMoreRays + rays_of[receiver]);
+      received[p] = received[p] + share * (more[p] - received[p]);
+      noise[p] = noise[p] + share * (more_noise[p] - noise[p]);
+    }
+    for (size_t row = 0; row < count; ++row)
+      if (asked[row]) rays_of[row] += kMoreRays;
+  }
+  return aimed;
+}
+
 }  // namespace
 
 const PassReport& advance(Solution& s) {
@@ -31,26 +139,36 @@ const PassReport& advance(Solution& s) {
   if (!s.mesh.frozen) freeze(s);
   const FaceTable& faces = s.surfaces->faces;
   const Rows rows = get_rows(s);
+  std::vector<Rgb> difference(s.mesh.patches.size());
   PassReport report;
   report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
   if (report.pass == 1) {
     s.light.sharp = s.light.direct;
-    gather_emission(s.light.smooth_added, rows, s.transport.aiming);
+    gather_emission(s.light.smooth_added, difference, rows, s.transport.aiming);
     report.ray_count = s.log.direct_ray_count;
     s.log.factor_count += count_factors(s);
   } else if (report.pass == 2) {
-    const SourceTable sources =
-        make_sources(s.mesh.elements, *s.surfaces, s.mesh.elements.unshot, kSourceCount);
-    const uint64_t aimed = gather_elements(
-        s.light.smooth_added, rows, {s.mesh.elements, s.mesh.element_first}, s.mesh.elements.unshot, sources);
+    const uint64_t aimed = gather_second(s, difference);
     s.log.transport_ray_count += aimed;
     s.log.factor_count += aimed;
     report.ray_count = aimed + uint64_t{s.transport.hits.ray_count} * s.transport.receivers.size();
   } else {
     const std::vector<Rgb> sent = s.mesh.patches.unshot;
-    gather_patches(s.light.smooth_added, {}, rows, sent);
+    gather_patches(s.light.smooth_added, difference, rows, sent);
+    // Where light is still so uneven that rows alone are too noisy, it is aimed at once more.
+    std::vector<Rgb> smoothed = s.light.smooth_added;
+    double noise = 0;
+    for (const double power : find_error_power(s, smooth_bounce(s, smoothed, difference))) noise += power;
+    if (noise > kLaterOfError * s.settings.error * find_sent_power(s)) {
+      const uint64_t aimed = gather_second(s, difference);
+      s.log.transport_ray_count += aimed;
+      s.log.factor_count += aimed;
+      report.ray_count = aimed;
+    }
   }
+  const std::vector<float> error = smooth_bounce(s, s.light.smooth_added, difference);
   for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
+    s.light.smooth_error[p] += error[p];
     s.light.smooth[p] += s.light.smooth_added[p];
     s.mesh.patches.unshot[p] = faces.reflectance[s.mesh.patches.face[p]] * s.light.smooth_added[p];
     s.mesh.patches.radiosity[p] += s.mesh.patches.unshot[p];

@@ -177,7 +177,7 @@ uint32_t find_blocked(const Tracer& tracer, RayPacket& packet, uint32_t active, 
     packet.time[k] = 0, packet.mask[k] = ~0u, packet.id[k] = k, packet.flags[k] = 0;
   trace_blocked(tracer, valid, packet, order);
   uint32_t blocked = 0;
-  for (uint32_t k = 0; k < 16; ++k) blocked |= (packet.far_distance[k] < 0 ? 1u : 0u) << k;
+  for (uint32_t k = 16; k-- > 0;) blocked = 2 * blocked + (packet.far_distance[k] < 0 ? 1 : 0);
   return blocked & active;
 }
 

@@ -33,6 +33,14 @@ struct alignas(64) HitPacket {
   uint32_t instance_primitive[16];  // Embree 4.3 and later write it
 };
 
+// Which of sixteen values are above 0: a bit each. Not by shifts: gcc 12 with -fsanitize=shift turns such a
+// loop into a test of the first value alone.
+inline uint32_t find_positive(const float (&values)[kPacketSize]) {
+  uint32_t bits = 0;
+  for (uint32_t k = kPacketSize; k-- > 0;) bits = 2 * bits + (values[k] > 0 ? 1 : 0);
+  return bits;
+}
+
 struct TracerState;
 struct Tracer {
   std::unique_ptr<TracerState, void (*)(TracerState*)> state;

@@ -223,11 +223,7 @@ void make_aimed_packet(AimedPacket& packet, const Place& place, const AimShares&
   }
 }
 
-uint32_t find_worthwhile(const AimedPacket& packet) {
-  uint32_t active = 0;
-  for (uint32_t k = 0; k < kPacketSize; ++k) active |= (packet.value[k] > 0 ? 1u : 0u) << k;
-  return active;
-}
+uint32_t find_worthwhile(const AimedPacket& packet) { return find_positive(packet.value); }
 
 // How often rays from a block of receivers reach each source: what blocks one's view mostly blocks its
 // neighbours'.
@@ -277,11 +273,21 @@ void weigh_shares(AimShares& shares, const SourceViews& views) {
   shares.cumulative.back() = 1;
 }
 
+// What two halves of some rays give; each half estimates half of the whole.
+struct Halves {
+  Rgb half[2] = {Rgb(0), Rgb(0)};
+  Rgb sum() const { return half[0] + half[1]; }
+  Rgb difference() const { return half[0] - half[1]; }
+  void operator*=(float factor) { half[0] *= factor, half[1] *= factor; }
+};
+// Rays in two halves, a chequerboard over their strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the other.
+uint32_t find_half(size_t k) { return static_cast<uint32_t>((k ^ k >> 2) & 1); }
+
 // The part of the aimed rays; the mean over their count.
-Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, uint64_t& ray_count) {
+Halves gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, uint64_t& ray_count) {
   const uint64_t key = make_place_key(place, b, kAimedRays);
   const Frame frame = make_frame(place.normal);
-  Rgb sum(0);
+  Halves sum;
   uint32_t usable_count = 0;
   AimedPacket packet;
   for (uint32_t index = 0; index < place.aimed; index += kPacketSize) {
@@ -295,17 +301,19 @@ Rgb gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, u
     const uint32_t blocked =
         find_blocked(b.rows.by.surfaces.tracer, packet.rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k)
-      if ((active & ~blocked) >> k & 1u) sum += packet.value[k] * b.sent[packet.element[k]];
+      // Consecutive samples go to one source.
+      if ((active & ~blocked) >> k & 1u) sum.half[k & 1] += packet.value[k] * b.sent[packet.element[k]];
   }
-  return usable_count ? sum / static_cast<float>(usable_count) : Rgb(0);
+  sum *= usable_count ? 1 / static_cast<float>(usable_count) : 0;
+  return sum;
 }
 
 // The part of the row's own rays; hits on sources weigh as much as the aimed rays leave them.
-Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
-               std::span<const uint32_t> element_source, RowScratch& scratch) {
+Halves gather_row(const Place& place, const AimShares& shares, const Bounce& b,
+                  std::span<const uint32_t> element_source, RowScratch& scratch) {
   const RowHits hits = find_row(scratch, b.rows, place.row);
   const FaceFrameTable& frames = b.rows.by.surfaces.frames;
-  Rgb sum(0);
+  Halves sum;
   for (size_t k = 0; k < place.rays; ++k) {
     const uint32_t patch = hits.patch[k];
     if (patch >= kHitBuried) continue;
@@ -322,9 +330,10 @@ Rgb gather_row(const Place& place, const AimShares& shares, const Bounce& b,
           shares.share[source] * find_density(b.sources, source, b.elements.table, element, b.sent);
       weight = heuristic(row_density, density);
     }
-    sum += weight * b.sent[element];
+    sum.half[find_half(k)] += weight * b.sent[element];
   }
-  return sum / (place.share_valid * static_cast<float>(place.rays));
+  sum *= 1 / (place.share_valid * static_cast<float>(place.rays));
+  return sum;
 }
 
 // Blocks of neighbours that face one way share what they learn of the sources: on one face, or in one run of
@@ -353,7 +362,8 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 
 }  // namespace
 
-void gather_emission(std::span<Rgb> irradiance, const Rows& rows, std::span<const uint8_t> aiming) {
+void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
+                     std::span<const uint8_t> aiming) {
   const FaceTable& faces = rows.by.surfaces.faces;
   // Few patches emit: a byte a patch stays in the cache.
   std::vector<uint8_t> emits(rows.by.patches.size());
@@ -361,20 +371,25 @@ void gather_emission(std::span<Rgb> irradiance, const Rows& rows, std::span<cons
   for_rows(rows.by.receivers.size(), 64, [&](size_t begin, size_t end) {
     RowScratch scratch;
     for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
-      Rgb sum(0);
+      Halves sum;
       // Polygons that share a receiver aim alike.
       const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
       const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
-      if (!aiming[polygon])
-        for (const uint32_t patch : find_row(scratch, rows, row).patch)
-          if (patch < kHitBuried && emits[patch]) sum += faces.emission[rows.by.patches.face[patch]];
+      if (!aiming[polygon]) {
+        const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
+        for (size_t k = 0; k < hit.size(); ++k)
+          if (hit[k] < kHitBuried && emits[hit[k]])
+            sum.half[find_half(k)] += faces.emission[rows.by.patches.face[hit[k]]];
+      }
       const uint32_t valid = rows.hits.valid_count(row);
-      spread(irradiance, rows.by.receivers, row, valid ? sum / static_cast<float>(valid) : Rgb(0));
+      sum *= valid ? 1 / static_cast<float>(valid) : 0;
+      spread(irradiance, rows.by.receivers, row, sum.sum());
+      if (!noise.empty()) spread(noise, rows.by.receivers, row, sum.difference());
     }
   });
 }
 
-void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const Rows& rows,
+void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
                     std::span<const Rgb> sent) {
   // Four floats a patch load in one go; the last row stands for rays that met no patch.
   struct alignas(16) Wide {
@@ -387,8 +402,7 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
     RowScratch scratch;
     for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
       const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
-      // Rays in two halves, a chequerboard over the strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the
-      // other.
+      // Halves as find_half() has them, eight at once.
       Wide sum[2] = {};
       for (size_t k = 0; k < hit.size(); k += 8)
         for (const auto& [even, odd] : {std::pair{0u, 1u}, {2u, 3u}, {5u, 4u}, {7u, 6u}}) {
@@ -400,14 +414,16 @@ void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const 
       const Rgb halves[2] = {{sum[0].channel[0], sum[0].channel[1], sum[0].channel[2]},
                              {sum[1].channel[0], sum[1].channel[1], sum[1].channel[2]}};
       spread(irradiance, rows.by.receivers, row, valid > 0 ? (halves[0] + halves[1]) / valid : Rgb(0));
-      if (!difference.empty())
-        spread(difference, rows.by.receivers, row, valid > 0 ? abs(halves[0] - halves[1]) / valid : Rgb(0));
+      if (!noise.empty())
+        spread(noise, rows.by.receivers, row, valid > 0 ? (halves[0] - halves[1]) / valid : Rgb(0));
     }
   });
 }
 
-uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elements& elements,
-                         std::span<const Rgb> sent, const SourceTable& sources) {
+uint64_t gather_elements(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
+                         const Elements& elements, std::span<const Rgb> sent, const SourceTable& sources,
+                         std::span<const uint8_t> asked) {
+  const auto is_asked = [&](uint32_t row) { return asked.empty() || asked[row]; };
   const Bounce b{rows, elements, sent, sources};
   std::vector<uint32_t> element_source(elements.table.size(), kNone);
   for (uint32_t s = 0; s < sources.size(); ++s)
@@ -424,21 +440,26 @@ uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elem
     for (size_t block = begin; block < end; ++block) {
       views.clear(sources.size());
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
+        if (!is_asked(row)) continue;
         const Place place = make_place(row, rows);
         AimShares& mine = shares[row - block_first[block]];
         find_shares(mine, sources, place.centre, place.normal);
         if (mine.any && place.share_valid > 0) cast += probe_sources(views, place, mine, b);
       }
       for (uint32_t row = block_first[block]; row < block_first[block + 1]; ++row) {
+        if (!is_asked(row)) continue;
         const Place place = make_place(row, rows);
         AimShares& mine = shares[row - block_first[block]];
-        Rgb received(0);
+        Rgb received(0), difference(0);
         if (place.share_valid > 0) {
           if (mine.any) weigh_shares(mine, views);
-          received = gather_row(place, mine, b, element_source, scratch);
-          if (mine.any) received += gather_aimed(place, mine, b, cast);
+          const Halves by_row = gather_row(place, mine, b, element_source, scratch);
+          const Halves aimed = mine.any ? gather_aimed(place, mine, b, cast) : Halves{};
+          received = by_row.sum() + aimed.sum();
+          difference = by_row.difference() + aimed.difference();
         }
         spread(irradiance, rows.by.receivers, row, received);
+        if (!noise.empty()) spread(noise, rows.by.receivers, row, difference);
       }
     }
     ray_count += cast;

@@ -9,12 +9,14 @@ namespace patchlight {
 
 // Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
 // meets and that is not aimed at. irradiance: a row a patch, overwritten.
-void gather_emission(std::span<Rgb> irradiance, const Rows& rows, std::span<const uint8_t> aiming);
+//
+// noise, here and below: half the difference of what two independent halves of the rays give, a sample of the
+// error; a row a patch, overwritten; empty: not wanted.
+void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
+                     std::span<const uint8_t> aiming);
 
-// Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send. difference: half the
-// difference of two independent halves of each row's rays, an estimate of the standard error; empty: not
-// wanted.
-void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> difference, const Rows& rows,
+// Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send.
+void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
                     std::span<const Rgb> sent);
 
 struct Elements {
@@ -25,8 +27,10 @@ struct Elements {
 // Irradiance of each patch from what the elements send (a row an element, W/m2): its row's rays and a
 // quarter as many aimed at the sources, joined by multiple importance sampling with the power heuristic
 // (Veach, Guibas: Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995). Nothing is
-// counted twice, and rows carry what no source covers. Returns the number of rays.
-uint64_t gather_elements(std::span<Rgb> irradiance, const Rows& rows, const Elements& elements,
-                         std::span<const Rgb> sent, const SourceTable& sources);
+// counted twice, and rows carry what no source covers. asked: a row a receiver, 0: passed over, its patches
+// keep what they have; empty: all are asked for. Returns the number of aimed rays.
+uint64_t gather_elements(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
+                         const Elements& elements, std::span<const Rgb> sent, const SourceTable& sources,
+                         std::span<const uint8_t> asked = {});
 
 }  // namespace patchlight

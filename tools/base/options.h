@@ -38,6 +38,7 @@ struct Options {
   bool exposure_auto = false;  // asked for by name: stronger than an EV in the scene
   std::optional<double> exposure_ev;
   std::optional<uint32_t> rays;
+  std::optional<double> error;
   std::optional<double> quality;
   std::optional<uint32_t> threads;
   std::optional<uint64_t> seed;

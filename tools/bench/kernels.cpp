@@ -53,7 +53,7 @@ struct Bench {
 // What the kernels write.
 struct Scratch {
   std::vector<Rgb> direct, irradiance;
-  std::vector<float> error;
+  std::vector<float> error, noise;
   std::vector<float> exposed;
   HitTable hits;
   Solution solution;
@@ -70,7 +70,8 @@ uint64_t direct_light(Scratch& scratch, const Bench& b) {
   const PatchTable& elements = b.refined.mesh.elements;
   scratch.direct.resize(elements.size());
   scratch.error.resize(elements.size());
-  return find_direct({scratch.direct, scratch.error}, b.rows,
+  scratch.noise.resize(elements.size());
+  return find_direct({scratch.direct, scratch.error, scratch.noise}, b.rows,
                      {*b.surfaces, b.refined.mesh, b.refined.transport.receivers, b.refined.transport.groups,
                       b.refined.transport.sights},
                      {}, b.settings.seed);
@@ -82,7 +83,7 @@ uint64_t rows_of_patches(Scratch& scratch, const Bench& b) {
 }
 
 uint64_t second_pass(Scratch& scratch, const Bench& b) {
-  return gather_elements(scratch.irradiance, get_rows(b.passed),
+  return gather_elements(scratch.irradiance, {}, get_rows(b.passed),
                          {b.passed.mesh.elements, b.passed.mesh.element_first}, b.sent, b.sources);
 }
 

@@ -66,6 +66,39 @@ Json make_objects(const ObjectPowerTable& power, const Scene& scene) {
   return objects;
 }
 
+// Shares of the mean of all light that surfaces send on; of an object, on its own area.
+Json make_error(const ErrorTable& error, const Scene& scene) {
+  const auto describe = [](const ErrorParts& parts, double factor) {
+    return Json{{"estimate", factor * parts.estimate()},
+                {"noise_direct", factor * parts.noise_direct},
+                {"noise_rows", factor * parts.noise_rows},
+                {"mesh", factor * parts.mesh}};
+  };
+  Json json = describe(error.whole, 1);
+  json["asked"] = scene.solver.error;
+  const size_t count = std::min(scene.object_ids.size(), kObjectsMax);
+  std::vector<ErrorParts> parts(count);
+  std::vector<double> area(count, 0);
+  double area_sum = 0;
+  for (size_t polygon = 0; polygon < error.polygon.size(); ++polygon) {
+    area_sum += error.polygon_area[polygon];
+    const size_t object = scene.polygons.object[polygon];
+    if (object >= count) continue;
+    area[object] += error.polygon_area[polygon];
+    parts[object].noise_direct += error.polygon[polygon].noise_direct;
+    parts[object].noise_rows += error.polygon[polygon].noise_rows;
+    parts[object].mesh += error.polygon[polygon].mesh;
+  }
+  json["objects"] = Json::array();
+  for (size_t object = 0; object < count; ++object) {
+    if (area[object] <= 0) continue;
+    Json row = describe(parts[object], area_sum / area[object]);
+    row["object"] = scene.object_ids[object];
+    json["objects"].push_back(row);
+  }
+  return json;
+}
+
 }  // namespace
 
 uint64_t count_rays(const RunReport& report, const Solution& solution) {
@@ -125,6 +158,7 @@ std::string format_report(const RunReport& report, const Scene& scene, const Sol
                      {"unshot", rgb(report.power->unshot * power_scale)},
                      {"closure_error", report.power->closure_error}};
 
+  if (report.error) json["error"] = make_error(*report.error, scene);
   if (const Json objects = make_objects(report.objects, scene); !objects.empty()) json["objects"] = objects;
 
   const StageSeconds& seconds = report.seconds;

@@ -1,6 +1,7 @@
 // What a run has to tell afterwards, for its files and the summary.
 #pragma once
 
+#include "engine/solve/error.h"
 #include "engine/solve/solvers.h"
 #include "tools/export/health.h"
 #include "tools/export/object_power.h"
@@ -25,6 +26,7 @@ struct RunReport {
   std::optional<double> exposure_ev;
   std::optional<uint64_t> solution_hash;
   std::optional<PowerLedger> power;  // W
+  std::optional<ErrorTable> error;
   Health health;
   ObjectPowerTable objects;  // W
   StageSeconds seconds;

@@ -182,6 +182,7 @@ std::string pick_stem(const std::string& scene_file, const std::string& basename
 Plan make_plan(Scene& scene, const Options& options) {
   override_with(scene.solver.pass_count_max, options.passes);
   override_with(scene.solver.rays, options.rays);
+  override_with(scene.solver.error, options.error);
   override_with(scene.solver.quality, options.quality);
   override_with(scene.solver.seed, options.seed);
   override_with(scene.solver.patch_count_max, options.max_patches);

@@ -145,6 +145,7 @@ void solve(Made& made, const Task& task, Talk& talk) {
     write_run_files(made, task);
   }
   made.report.power = find_power_ledger(made.solution);
+  if (task.plan.solver->goes_by_bounces) made.report.error = find_error(made.solution);
   made.report.health = find_health(task.scene, made.solution);
   made.report.objects = find_object_power(task.scene, made.solution);
   made.report.solution_hash = find_solution_hash(made.solution);
@@ -229,6 +230,7 @@ void warn_not_converged(const Scene& scene, const RunReport& report, std::span<c
 
 // Where the ledger does not close, light is missing or too much somewhere.
 constexpr double kClosureTold = 0.01;
+constexpr double kErrorTold = 2;
 void warn_not_closed(const Scene& scene, const RunReport& report, Talk& talk) {
   if (!report.power || report.power->closure_error <= kClosureTold) return;
   say_warning(
@@ -236,6 +238,24 @@ void warn_not_closed(const Scene& scene, const RunReport& report, Talk& talk) {
       fmt::format("{:.2g} % of the emitted power is not accounted for: somewhere light is too bright or too "
                   "dark; --quality 4 may help, surfaces that lie in one another may be the cause",
                   100 * report.power->closure_error),
+      scene.file);
+}
+
+// Told only where twice as much is likely: the estimate is one.
+void warn_budget_reached(const Scene& scene, const RunReport& report, Talk& talk) {
+  if (!report.error || report.stopped_reason != "converged") return;
+  const ErrorParts& parts = report.error->whole;
+  const double asked = scene.solver.error;
+  if (parts.estimate() <= kErrorTold * asked) return;
+  const bool mesh = parts.mesh >= std::max(parts.noise_direct, parts.noise_rows);
+  say_warning(
+      talk, "budget-reached",
+      fmt::format("the light may be off by {:.2g} % on average, and {:g} % was asked for: mostly {}; {}",
+                  100 * parts.estimate(), 100 * asked,
+                  mesh                                    ? "by patches that are too large for its edges"
+                  : parts.noise_direct > parts.noise_rows ? "by noise of lamps that are seen in part"
+                                                          : "by noise of the light of surfaces",
+                  mesh ? "more max_patches or --quality 4 would help" : "--quality 4 would help"),
       scene.file);
 }
 
@@ -279,6 +299,7 @@ int render(const Options& options, Talk& talk) {
 
   warn_not_converged(scene, report, made.solution.log.passes, talk);
   warn_not_closed(scene, report, talk);
+  warn_budget_reached(scene, report, talk);
   say_diagnostics(talk, describe_leaks(scene, report.health.leaks));
   say_summary(made, task, talk);
   if (!options.json) {

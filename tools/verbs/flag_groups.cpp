@@ -88,8 +88,12 @@ void add_solver_flags(Usage& usage, Options& options) {
             [&](const std::string& text) {
               options.rays = static_cast<uint32_t>(parse_count("--rays", text, 1, 1'000'000));
             });
+  add_value(
+      usage, "--error", "E",
+      "what the light may be off by, mean over mean; less: more rays and smaller patches; 0.01 unless given",
+      [&](const std::string& text) { options.error = parse_number("--error", text, kErrorMin, kErrorMax); });
   add_value(usage, "--quality", "Q",
-            "more rays and smaller patches at once: about Q times the time, less error; 1 unless given",
+            "about Q times the time that the error asked for would take, and less error; 1 unless given",
             [&](const std::string& text) {
               options.quality = parse_number("--quality", text, kQualityMin, kQualityMax);
             });

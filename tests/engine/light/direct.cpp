@@ -26,7 +26,7 @@ struct Stage {
   std::vector<uint8_t> aiming;
   SightTable sights;
   std::vector<Rgb> irradiance;
-  std::vector<float> error;
+  std::vector<float> error, noise;
   uint64_t ray_count = 0;  // of find_direct
 };
 
@@ -59,8 +59,9 @@ Stage light_stage(FaceTable faces, uint32_t level, DirectRays rays, uint64_t see
   Stage stage = make_stage(std::move(faces), level, seed);
   stage.irradiance.resize(stage.mesh.elements.size());
   stage.error.resize(stage.mesh.elements.size());
+  stage.noise.resize(stage.mesh.elements.size());
   stage.ray_count =
-      find_direct({stage.irradiance, stage.error}, all_rows(stage.mesh.elements.size()),
+      find_direct({stage.irradiance, stage.error, stage.noise}, all_rows(stage.mesh.elements.size()),
                   {*stage.surfaces, stage.mesh, stage.receivers, stage.groups, stage.sights}, rays, seed);
   return stage;
 }
@@ -301,8 +302,8 @@ TEST_CASE("the inherited state of a refined scene is what a full computation of 
   std::vector<uint32_t> rows(s.mesh.elements.size());
   std::iota(rows.begin(), rows.end(), 0u);
   std::vector<Rgb> irradiance(rows.size());
-  std::vector<float> error(rows.size());
-  find_direct({irradiance, error}, rows,
+  std::vector<float> error(rows.size()), noise(rows.size());
+  find_direct({irradiance, error, noise}, rows,
               {*s.surfaces, s.mesh, s.transport.receivers, s.transport.groups, s.transport.sights},
               {16, settings.rays / 4}, settings.seed);
   size_t different = 0;

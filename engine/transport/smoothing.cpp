@@ -1,0 +1,219 @@
+// Noisy values of leaves to smoother ones.
+#include "engine/transport/smoothing.h"
+
+#include "engine/base/parallel.h"
+#include "engine/mesh/quadtree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace patchlight {
+namespace {
+
+// A step brings a leaf half of the way to the mean of its neighbours.
+constexpr float kStep = 0.5f;
+// Over so many steps' width squared errors are averaged before they choose: a single sample says little.
+constexpr uint32_t kAveragingSteps = 8;
+// The chosen strength changes gradually from leaf to leaf.
+constexpr uint32_t kGradualSteps = 4;
+
+struct Side {
+  std::array<uint32_t, 2> leaf = {kNone, kNone};
+  Vec3 centre{0};  // of them, their mean
+};
+
+Side find_side(const PatchTable& leaves, const Surfaces& surfaces, uint32_t row, uint32_t edge) {
+  Side side;
+  uint32_t count = 0;
+  for (const uint32_t other : find_neighbours(leaves, surfaces.frames, surfaces.smooth_links, row, edge)) {
+    if (other == kNone || leaves.exposed[other] == 0) continue;
+    const auto [face, cell, level] = name_cell(leaves, other);
+    side.centre += cell_centre(surfaces.frames, face, cell, level);
+    side.leaf[count++] = other;
+  }
+  if (count) side.centre /= static_cast<float>(count);
+  return side;
+}
+
+// The neighbours of one leaf: four sides, two finer ones each.
+struct Neighbours {
+  uint32_t count = 0;
+  std::array<uint32_t, 8> leaf;
+  std::array<float, 8> weight;
+};
+
+Neighbours find_smoothing_neighbours(const PatchTable& leaves, const Surfaces& surfaces, uint32_t row) {
+  Neighbours all;
+  if (leaves.exposed[row] == 0) return all;
+  const auto [face, cell, level] = name_cell(leaves, row);
+  const Vec3 centre = cell_centre(surfaces.frames, face, cell, level);
+  const uint32_t sides = edge_count(surfaces.frames, face);
+  std::array<Side, 4> side;
+  for (uint32_t edge = 0; edge < sides; ++edge) side[edge] = find_side(leaves, surfaces, row, edge);
+  const auto has = [&](uint32_t edge) { return side[edge].leaf[0] != kNone; };
+  float sum = 0;
+  const auto add = [&](const Side& from, float share) {
+    const bool two = from.leaf[1] != kNone;
+    for (const uint32_t other : from.leaf) {
+      if (other == kNone) continue;
+      all.leaf[all.count] = other;
+      all.weight[all.count++] = two ? 0.5f * share : share;
+    }
+    sum += share;
+  };
+  if (sides == 3) {
+    if (has(0) && has(1) && has(2))
+      for (uint32_t edge = 0; edge < 3; ++edge) add(side[edge], 1);
+  } else {
+    for (uint32_t edge = 0; edge < 2; ++edge) {
+      if (!has(edge) || !has(edge + 2)) continue;
+      // A linear change cancels: the nearer side weighs more.
+      const float a = distance(side[edge].centre, centre), b = distance(side[edge + 2].centre, centre);
+      if (!(a + b > 0)) continue;
+      add(side[edge], b / (a + b));
+      add(side[edge + 2], a / (a + b));
+    }
+  }
+  for (uint32_t k = 0; k < all.count; ++k) all.weight[k] /= sum;
+  return all;
+}
+
+// A column that takes steps: rows without an entry in the table keep their values.
+template <typename T>
+class Stepper {
+ public:
+  Stepper(std::vector<T> column, const SmoothingTable& smoothing)
+      : now(std::move(column)), next_(now), smoothing_(smoothing) {}
+  void take_steps(uint32_t count) {
+    for (uint32_t k = 0; k < count; ++k) step();
+  }
+  std::vector<T> now;
+
+ private:
+  void step() {
+    const SmoothingTable& table = smoothing_;
+    for_rows(table.size(), 1024, [&](size_t begin, size_t end) {
+      for (size_t entry = begin; entry < end; ++entry) {
+        const uint32_t leaf = table.leaf[entry];
+        T mean(0);
+        for (uint32_t k = table.first[entry]; k < table.first[entry + 1]; ++k)
+          mean += table.weight[k] * now[table.neighbour[k]];
+        next_[leaf] = now[leaf] + kStep * (mean - now[leaf]);
+      }
+    });
+    std::swap(now, next_);
+  }
+  std::vector<T> next_;
+  const SmoothingTable& smoothing_;
+};
+
+uint32_t count_steps(uint32_t strength) {  // beyond those of the strength before
+  return strength == 0 ? 0 : strength == 1 ? 1 : 1u << (strength - 2);
+}
+
+float square(float x) { return x * x; }
+
+// Calls use(strength, value, noise) for one strength after the other.
+template <typename Use>
+void for_strengths(const NoisyColumns& columns, const SmoothingTable& smoothing, uint32_t strengths,
+                   const Use& use) {
+  Stepper<Rgb> value({columns.value.begin(), columns.value.end()}, smoothing);
+  Stepper<float> noise({columns.noise.begin(), columns.noise.end()}, smoothing);
+  for (uint32_t s = 0; s < strengths; ++s) {
+    value.take_steps(count_steps(s)), noise.take_steps(count_steps(s));
+    use(s, value.now, noise.now);
+  }
+}
+
+}  // namespace
+
+SmoothingTable make_smoothing(const PatchTable& leaves, const Surfaces& surfaces,
+                              std::span<const uint32_t> which) {
+  std::vector<Neighbours> all(which.size());
+  for_rows(which.size(), 512, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) all[k] = find_smoothing_neighbours(leaves, surfaces, which[k]);
+  });
+  SmoothingTable table;
+  table.first.push_back(0);
+  for (size_t k = 0; k < which.size(); ++k) {
+    if (all[k].count == 0) continue;
+    table.leaf.push_back(which[k]);
+    table.first.push_back(table.first.back() + all[k].count);
+    table.neighbour.insert(table.neighbour.end(), all[k].leaf.begin(), all[k].leaf.begin() + all[k].count);
+    table.weight.insert(table.weight.end(), all[k].weight.begin(), all[k].weight.begin() + all[k].count);
+  }
+  return table;
+}
+
+void smooth_noise(const NoisyColumns& columns, const SmoothingTable& smoothing, uint32_t strengths) {
+  const size_t count = columns.value.size();
+  std::vector<float> least(count), best(count, 0);
+  for_strengths(columns, smoothing, strengths, [&](uint32_t s, const auto& value, const auto& noise) {
+    std::vector<float> change(count), left(count);  // squares: of the light, of its noise
+    for_rows(count, 4096, [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        left[p] = square(noise[p]);
+        change[p] = square(mean_channel(value[p] - columns.value[p])) - square(noise[p] - columns.noise[p]);
+      }
+    });
+    Stepper<float> changes(std::move(change), smoothing), lefts(std::move(left), smoothing);
+    changes.take_steps(s == 0 ? 0 : kAveragingSteps), lefts.take_steps(kAveragingSteps);
+    for_rows(count, 4096, [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        const float risk = std::max(changes.now[p], 0.0f) + lefts.now[p];
+        if (s > 0 && risk >= least[p]) continue;
+        least[p] = risk;
+        best[p] = static_cast<float>(s);
+      }
+    });
+  });
+  Stepper<float> strength(std::move(best), smoothing);
+  strength.take_steps(kGradualSteps);
+  std::vector<Rgb> value_out(count, Rgb(0));
+  std::vector<float> noise_out(count, 0);
+  for_strengths(columns, smoothing, strengths, [&](uint32_t s, const auto& value, const auto& noise) {
+    for_rows(count, 4096, [&](size_t begin, size_t end) {
+      for (size_t p = begin; p < end; ++p) {
+        const float share = 1 - std::abs(strength.now[p] - static_cast<float>(s));
+        if (share <= 0) continue;
+        value_out[p] += share * value[p];
+        noise_out[p] += share * noise[p];
+      }
+    });
+  });
+  for_rows(count, 4096, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      columns.value[p] = value_out[p];
+      columns.noise[p] = noise_out[p];
+      columns.error[p] = std::sqrt(least[p]);
+    }
+  });
+}
+
+void keep_power(std::span<Rgb> after, std::span<const Rgb> before, const PatchTable& leaves,
+                const FaceTable& faces) {
+  // Faces of a polygon follow each other, and so do the leaves of a face.
+  std::vector<uint32_t> polygon_face = {0};
+  for (uint32_t face = 1; face < faces.size(); ++face)
+    if (faces.polygon[face] != faces.polygon[face - 1]) polygon_face.push_back(face);
+  polygon_face.push_back(static_cast<uint32_t>(faces.size()));
+  for_rows(polygon_face.size() - 1, 16, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const uint32_t first = leaves.face_first[polygon_face[k]],
+                     last = leaves.face_first[polygon_face[k + 1]];
+      DRgb sum_before(0), sum_after(0);
+      for (uint32_t row = first; row < last; ++row) {
+        const double area = double{leaves.area[row]} * leaves.exposed[row];
+        sum_before += area * DRgb(before[row]), sum_after += area * DRgb(after[row]);
+      }
+      Rgb factor(1);
+      for (int c = 0; c < 3; ++c)
+        if (sum_after[c] > 0) factor[c] = static_cast<float>(sum_before[c] / sum_after[c]);
+      for (uint32_t row = first; row < last; ++row) after[row] *= factor;
+    }
+  });
+}
+
+}  // namespace patchlight
