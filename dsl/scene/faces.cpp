@@ -140,7 +140,7 @@ struct FaceRow {
 };
 
 void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectance, uint32_t polygon,
-               uint32_t surface, uint32_t twin, float patch_size, uint8_t level) {
+               uint32_t surface, uint32_t twin, float patch_size, float patch_size_min, uint8_t level) {
   faces.corners.push_back(row.corners);
   faces.corner_count.push_back(row.corner_count);
   faces.normal.push_back(row.normal);
@@ -150,6 +150,7 @@ void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectan
   faces.surface.push_back(surface);
   faces.twin.push_back(twin);
   faces.patch_size.push_back(patch_size);
+  faces.patch_size_min.push_back(patch_size_min);
   faces.level_min.push_back(level);
 }
 
@@ -201,6 +202,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const auto emission = Rgb(materials.emission[material]);
   const auto reflectance = Rgb(materials.reflectance[material]);
   const auto patch_size = to_patch_size(objects.patch_size[object] / scene.units_per_length);
+  const auto patch_size_min = to_patch_size(objects.patch_size_min[object] / scene.units_per_length);
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
   convert_faces(table, p, scene, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());
@@ -214,7 +216,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
                 !two_sided  ? kNone
                 : side == 0 ? first + count + k
                             : first + k,
-                patch_size, level);
+                patch_size, patch_size_min, level);
     scene.polygons.id.push_back(outlines.id[p] + (side == 0 ? "" : ".back"));
     scene.polygons.object.push_back(objects.top[object]);
     scene.polygons.line.push_back(line);
