@@ -25,7 +25,7 @@ struct FaceTable {
   std::vector<Rgb> emission;          // W/m2, >= 0
   std::vector<Rgb> reflectance;       // 0..1
   std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from; ascending
-  std::vector<uint32_t> surface;      // faces of one imported surface, whose edges may be smooth; kNone: none
+  std::vector<uint32_t> surface;      // faces of one curved surface, whose edges may be smooth; kNone: none
   std::vector<uint32_t> twin;         // the face back to back with this one (two-sided), or kNone
   std::vector<float> patch_size;      // longest edge of a starting patch on it; 0: as the settings say
   std::vector<float> patch_size_min;  // of one that may still be split; 0: as the settings say

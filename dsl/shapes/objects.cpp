@@ -58,6 +58,8 @@ uint32_t add_object(uint32_t node, const Inherited& own, ObjectTable& objects) {
   objects.top.push_back(own.top);
   objects.two_sided.push_back(own.two_sided);
   objects.is_mesh.push_back(0);
+  objects.is_smooth.push_back(0);
+  objects.is_solid.push_back(0);
   objects.patch_size.push_back(own.patch_size);
   objects.patch_size_min.push_back(own.patch_size_min);
   objects.subdivide.push_back(own.subdivide);

@@ -180,13 +180,13 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
   MaterialTable materials;
   materials.reflectance = {DRgb(0.25), DRgb(0.5)};
   materials.emission = {DRgb(0), DRgb(7)};
-  materials.is_heat = {0, 0};
+  materials.is_heat = materials.by_power = {0, 0};
   ObjectTable objects;
   objects.top_ids = {"a", "b"};
   objects.top = {0, 1};
   objects.node = objects.subdivide_node = {0, 0};
   objects.two_sided = {0, 1};
-  objects.is_mesh = {0, 0};
+  objects.is_mesh = objects.is_smooth = objects.is_solid = {0, 0};
   objects.patch_size = {0, 2};
   objects.patch_size_min = {0, 1};
   objects.subdivide = {4, 1};
