@@ -13,6 +13,7 @@ struct SolverSettings {
   float patch_size = 0;      // longest edge of a starting patch, lengths; larger starts coarser; 0: automatic
   float patch_size_min = 0;  // a patch whose longest edge is below this is not split; 0: automatic
   float threshold = 0.1f;    // neighbours that differ by a larger share of the larger one are split
+  float threshold_indirect = 0;  // the same of the patches that carry light between surfaces; 0: automatic
   uint64_t patch_count_max = 200000;  // the budget of patches (elements)
   uint32_t rays = 256;                // rays a row; more: less noise, more time
   float quality = 1;    // times the rays and finer patches at once: about so many times the time; less error

@@ -25,9 +25,10 @@ struct FaceTable {
   std::vector<Rgb> emission;          // W/m2, >= 0
   std::vector<Rgb> reflectance;       // 0..1
   std::vector<uint32_t> polygon;      // the scene's polygon that this face was cut from; ascending
-  std::vector<uint32_t> surface;      // faces of one imported surface, whose edges may be smooth; kNone: none
+  std::vector<uint32_t> surface;      // faces of one curved surface, whose edges may be smooth; kNone: none
   std::vector<uint32_t> twin;         // the face back to back with this one (two-sided), or kNone
   std::vector<float> patch_size;      // longest edge of a starting patch on it; 0: as the settings say
+  std::vector<float> patch_size_min;  // of one that may still be split; 0: as the settings say
   std::vector<uint8_t> level_min;     // it starts at least this often halved
   size_t size() const { return normal.size(); }
 };
@@ -159,7 +160,8 @@ constexpr auto list_columns(const FaceTable*) {
       TableColumn{"normal", &T::normal},           TableColumn{"emission", &T::emission},
       TableColumn{"reflectance", &T::reflectance}, TableColumn{"polygon", &T::polygon},
       TableColumn{"surface", &T::surface},         TableColumn{"twin", &T::twin},
-      TableColumn{"patch_size", &T::patch_size},   TableColumn{"level_min", &T::level_min}};
+      TableColumn{"patch_size", &T::patch_size},   TableColumn{"patch_size_min", &T::patch_size_min},
+      TableColumn{"level_min", &T::level_min}};
 }
 constexpr auto list_columns(const FaceFrameTable*) {
   using T = FaceFrameTable;

@@ -41,6 +41,7 @@ inline uint32_t add_face(FaceTable& faces, std::span<const Vec3> corners, uint32
   faces.surface.push_back(kNone);
   faces.twin.push_back(kNone);
   faces.patch_size.push_back(0);
+  faces.patch_size_min.push_back(0);
   faces.level_min.push_back(0);
   return static_cast<uint32_t>(faces.size() - 1);
 }

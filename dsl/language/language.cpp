@@ -74,14 +74,19 @@ constexpr KeyRow kMaterialRows[] = {
      "Share of light that is reflected, 0..1: a number or [r, g, b]."},
     {"emission", kRgb, false, "0", 0, kEmissionMax, "emission-range", "",
      "Light given off: exitance in W/m2, which is radiance times pi; a number or [r, g, b]."},
+    {"power", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "Instead of emission, W: what all faces that an object has of this material give off together; a number "
+     "or [r, g, b]."},
     {"temperature", kNumber, false, "", 0, kTemperatureMax, "out-of-range", "",
      "Beside emissivity, kelvin: the surface emits emissivity times 5.670374e-8 T^4 W/m2. Absent: nothing."},
     {"emissivity", kNumber, false, "", 0, 1, "out-of-range", "",
      "Heat in place of light, 0..1: the surface reflects 1 - emissivity."},
 };
 constexpr KeyRule kMaterialRules[] = {
-    {kExcludes, "temperature|emissivity", "reflectance|emission", "ambiguous-material",
+    {kExcludes, "temperature|emissivity", "reflectance|emission|power", "ambiguous-material",
      "a material has either 'reflectance' and 'emission', or 'temperature' and 'emissivity'"},
+    {kExcludes, "emission", "power", "ambiguous-material",
+     "a material has either 'emission' (W/m2) or 'power' (W of each object that has it)"},
     {kNeeds, "temperature", "emissivity", "missing-key",
      "'temperature' wants 'emissivity' beside it; 1 is a black body"},
 };

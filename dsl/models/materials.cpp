@@ -52,7 +52,10 @@ void read_materials(const Context& context, uint32_t node, MaterialTable& materi
                                        place_of(tree, key))));
     materials.name.push_back(context.prefix + name);
     materials.reflectance.push_back(reflectance);
-    materials.emission.push_back(is_heat ? DVec3(find_exitance(map)) : vec3_of(value_of(map, "emission")));
+    const bool by_power = has(map, "power");
+    materials.emission.push_back(is_heat ? DVec3(find_exitance(map))
+                                         : vec3_of(value_of(map, by_power ? "power" : "emission")));
+    materials.by_power.push_back(by_power);
     materials.is_heat.push_back(is_heat);
     materials.node.push_back(key);
     materials.used.push_back(0);

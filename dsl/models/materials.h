@@ -15,6 +15,7 @@ struct MaterialTable {
   std::vector<std::string> name;  // with the prefix of its include
   std::vector<DRgb> reflectance;  // 0..1
   std::vector<DRgb> emission;     // W/m2
+  std::vector<uint8_t> by_power;  // emission is in W, of all faces that an object has of it
   std::vector<uint8_t> is_heat;   // given by its emissivity
   std::vector<uint32_t> node;     // of its name
   std::vector<uint8_t> used;

@@ -106,6 +106,7 @@ bool make_mesh_materials(const Context& context, uint32_t node, const std::vecto
     materials.name.push_back(is_named ? mesh.table.material[row] : std::string{});
     materials.reflectance.push_back(reflectance_of(mesh, row, names));
     materials.emission.emplace_back(0);
+    materials.by_power.push_back(0);
     materials.is_heat.push_back(0);
     materials.node.push_back(node);
     materials.used.push_back(1);

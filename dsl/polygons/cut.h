@@ -22,6 +22,9 @@ bool cut_polygon(const FlatPolygon& polygon, bool emits, CutFaces& cut);
 // with nothing written, when it is no such polygon or the grid would have more than kGridCellsMax cells.
 bool cut_grid(const FlatPolygon& polygon, CutFaces& cut);
 constexpr size_t kGridCellsMax = 4096;
+// The same for polygons of one plane (one origin, axes and size), along the lines of them all: they meet in
+// whole edges. A row a polygon.
+bool cut_grids(std::span<const FlatPolygon> polygons, std::span<CutFaces> cuts);
 
 // A convex, roundish polygon with many corners: rings of triangles inwards, each with half as many corners,
 // so that none is a sliver. False when it is no such polygon. Flat coordinates of all points are left in

@@ -21,19 +21,22 @@ std::vector<double> distinct(std::vector<double> values) {
   return lines;
 }
 
-// The corners' lines along one direction; false when an edge follows neither direction.
-bool find_lines(const FlatPolygon& polygon, std::vector<double>& xs, std::vector<double>& ys) {
+// Lines along one direction and along the other, ascending.
+struct Lines {
+  std::vector<double> xs, ys;
+};
+
+// Adds those of the polygon's corners, in no order; false when an edge follows neither direction.
+bool add_lines(const FlatPolygon& polygon, Lines& lines) {
   for (size_t ring = 0; ring < polygon.ring_count(); ++ring) {
     const uint32_t first = polygon.ring_first[ring], last = polygon.ring_first[ring + 1];
     for (uint32_t k = first; k < last; ++k) {
       const DVec2 a = polygon.flat[k], edge = glm::abs(polygon.flat[k + 1 < last ? k + 1 : first] - a);
       if (std::min(edge.x, edge.y) > kParallel) return false;
-      xs.push_back(a.x);
-      ys.push_back(a.y);
+      lines.xs.push_back(a.x);
+      lines.ys.push_back(a.y);
     }
   }
-  xs = distinct(std::move(xs));
-  ys = distinct(std::move(ys));
   return true;
 }
 
@@ -87,19 +90,22 @@ std::vector<uint8_t> inside_of_row(const FlatPolygon& polygon, const std::vector
   return inside;
 }
 
-}  // namespace
-
-bool cut_grid(const FlatPolygon& polygon, CutFaces& cut) {
-  std::vector<double> xs, ys;
-  if (!find_lines(polygon, xs, ys) || cell_count(xs, ys) > kGridCellsMax) return false;
+// The lines of all polygons, and those added between them. False when they make no grid.
+bool find_lines(std::span<const FlatPolygon> polygons, Lines& lines) {
+  for (const FlatPolygon& polygon : polygons)
+    if (!add_lines(polygon, lines)) return false;
+  std::vector<double> xs = distinct(std::move(lines.xs)), ys = distinct(std::move(lines.ys));
+  if (cell_count(xs, ys) > kGridCellsMax) return false;
   const double longer_side = std::max(xs.back() - xs.front(), ys.back() - ys.front());
   const double cell =
       kCellStretch * std::max(std::min(narrowest_gap(xs), narrowest_gap(ys)), kFinest * longer_side);
-  const std::vector<double> finer_xs = refine(xs, cell), finer_ys = refine(ys, cell);
-  if (cell_count(finer_xs, finer_ys) <= kGridCellsMax) {
-    xs = finer_xs;
-    ys = finer_ys;
-  }
+  lines = {refine(xs, cell), refine(ys, cell)};
+  if (cell_count(lines.xs, lines.ys) > kGridCellsMax) lines = {std::move(xs), std::move(ys)};
+  return true;
+}
+
+void cut_at_lines(const FlatPolygon& polygon, const Lines& lines, CutFaces& cut) {
+  const std::vector<double>&xs = lines.xs, &ys = lines.ys;
   // The polygon's own corners keep their bits; other grid points are made where a cell needs them.
   std::vector<uint32_t> point(xs.size() * ys.size(), kNone);
   for (uint32_t k = 0; k < polygon.flat.size(); ++k)
@@ -117,6 +123,24 @@ bool cut_grid(const FlatPolygon& polygon, CutFaces& cut) {
     for (size_t x = 0; x + 1 < xs.size(); ++x)
       if (inside[x])
         cut.faces.push_back({point_of(x, y), point_of(x + 1, y), point_of(x + 1, y + 1), point_of(x, y + 1)});
+  }
+}
+
+}  // namespace
+
+bool cut_grid(const FlatPolygon& polygon, CutFaces& cut) {
+  Lines lines;
+  if (!find_lines({&polygon, 1}, lines)) return false;
+  cut_at_lines(polygon, lines, cut);
+  return true;
+}
+
+bool cut_grids(std::span<const FlatPolygon> polygons, std::span<CutFaces> cuts) {
+  Lines lines;
+  if (!find_lines(polygons, lines)) return false;
+  for (size_t k = 0; k < polygons.size(); ++k) {
+    cuts[k].points = polygons[k].points;
+    cut_at_lines(polygons[k], lines, cuts[k]);
   }
   return true;
 }

@@ -267,6 +267,19 @@ bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& o
   return true;
 }
 
+bool flatten_again(const OutlineTable& outlines, uint32_t p, FlatPolygon& polygon) {
+  // Places are asked for where there is something to say: one node stands for them all.
+  Messages unheard;
+  Tree tree;
+  tree.file_first = {0};
+  tree.nodes.resize(1);
+  OutlineTable copy;
+  const uint32_t first = outlines.polygon_first[p], last = outlines.polygon_first[p + 1];
+  add_polygon(copy, 0, {}, kNone, 0, ring_of(outlines, first));
+  for (uint32_t ring = first + 1; ring < last; ++ring) add_hole(copy, 0, ring_of(outlines, ring));
+  return flatten_polygon(unheard, tree, copy, 0, polygon);
+}
+
 MeshFace flatten_mesh_face(std::span<const DVec3> corners, FlatPolygon& polygon) {
   polygon.points.clear();
   polygon.of_mesh = true;

@@ -16,6 +16,9 @@ namespace patchlight {
 bool flatten_polygon(Messages& messages, const Tree& tree, const OutlineTable& outlines, uint32_t p,
                      FlatPolygon& polygon);
 
+// The same without a word, for an outline that has passed it before.
+bool flatten_again(const OutlineTable& outlines, uint32_t p, FlatPolygon& polygon);
+
 enum class MeshFace : uint8_t { kSound, kNoArea, kCrossing };
 
 // The same for a face of a mesh, without a word: corners that repeat are left out, and corners may lie off

@@ -16,9 +16,11 @@ struct ObjectTable {
   std::vector<uint32_t> top;         // the entry that the object is, or stands in: a row of top_ids
   std::vector<uint32_t> node;        // tree node of its id, or of the object where it has none
   std::vector<uint8_t> two_sided;
-  std::vector<uint8_t> is_mesh;     // its polygons are faces of a mesh: bent or thin ones are no mistakes
-  std::vector<double> patch_size;   // file units; 0: as the settings say
-  std::vector<uint32_t> subdivide;  // 1: not asked
+  std::vector<uint8_t> is_mesh;    // its polygons are faces of a mesh: bent or thin ones are no mistakes
+  std::vector<uint8_t> is_smooth;  // its polygons stand for a curved surface
+  std::vector<uint8_t> is_solid;   // its polygons enclose what nothing is to be in
+  std::vector<double> patch_size, patch_size_min;  // file units; 0: as the settings say
+  std::vector<uint32_t> subdivide;                 // 1: not asked
   std::vector<uint32_t> subdivide_node;
   size_t size() const { return node.size(); }
 };

@@ -4,24 +4,16 @@
 #include "dsl/polygons/cut.h"
 #include "dsl/polygons/flatten.h"
 #include "dsl/report/limits.h"
+#include "dsl/scene/power.h"
+#include "dsl/scene/sheets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace patchlight {
 namespace {
-
-// The faces of all polygons, in file units.
-struct CutTable {
-  std::vector<DVec3> points;
-  std::vector<uint32_t> point_first{0};  // polygons + 1
-  std::vector<FaceCorners> faces;        // indices from the polygon's point_first
-  std::vector<uint32_t> face_first{0};   // polygons + 1
-  std::vector<DVec3> normal;             // a row a polygon
-};
 
 // Sums over polygons: what the conversion to engine lengths is made from.
 struct Sums {
@@ -103,10 +95,13 @@ CutTable cut_all(Messages& messages, const Tree& tree, const MaterialTable& mate
     }
     table.points.insert(table.points.end(), cut.points.begin(), cut.points.end());
     table.faces.insert(table.faces.end(), cut.faces.begin(), cut.faces.end());
+    const bool two_sided = objects.two_sided[outlines.object[p]] != 0;
+    table.sides.resize(table.faces.size(), two_sided ? kFrontSide | kBackSide : kFrontSide);
+    table.sheet.resize(table.faces.size(), kNone);
     table.point_first.push_back(static_cast<uint32_t>(table.points.size()));
     table.face_first.push_back(static_cast<uint32_t>(table.faces.size()));
     table.normal.push_back(normal);
-    count += cut.faces.size() * (objects.two_sided[outlines.object[p]] ? 2 : 1);
+    count += cut.faces.size() * (two_sided ? 2 : 1);
     if (count > start_patches_max) {
       add_error(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]), "too-many-patches",
                 fmt::format("'{}' takes the scene above the limit of {} starting patches (--max-patches "
@@ -137,10 +132,12 @@ struct FaceRow {
   std::array<Vec3, 4> corners;
   uint8_t corner_count;
   Vec3 normal;
+  uint8_t sides;
+  uint32_t sheet;
 };
 
 void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectance, uint32_t polygon,
-               uint32_t surface, uint32_t twin, float patch_size, uint8_t level) {
+               uint32_t surface, float patch_size, float patch_size_min, uint8_t level) {
   faces.corners.push_back(row.corners);
   faces.corner_count.push_back(row.corner_count);
   faces.normal.push_back(row.normal);
@@ -148,15 +145,16 @@ void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectan
   faces.reflectance.push_back(reflectance);
   faces.polygon.push_back(polygon);
   faces.surface.push_back(surface);
-  faces.twin.push_back(twin);
+  faces.twin.push_back(kNone);
   faces.patch_size.push_back(patch_size);
+  faces.patch_size_min.push_back(patch_size_min);
   faces.level_min.push_back(level);
 }
 
 FaceRow turned_over(const FaceRow& row) {
   const auto& c = row.corners;
-  if (row.corner_count == 3) return {{c[0], c[2], c[1], c[1]}, 3, -row.normal};
-  return {{c[0], c[3], c[2], c[1]}, 4, -row.normal};
+  if (row.corner_count == 3) return {{c[0], c[2], c[1], c[1]}, 3, -row.normal, row.sides, row.sheet};
+  return {{c[0], c[3], c[2], c[1]}, 4, -row.normal, row.sides, row.sheet};
 }
 
 // The faces of polygon p that floats can tell apart from nothing, in engine lengths.
@@ -180,6 +178,8 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
     if (!(glm::dot(normal, table.normal[p]) > 0)) continue;
     if (float_normal(row.corners, normal) == DVec3(0)) continue;
     row.normal = Vec3(normal);
+    row.sides = table.sides[f];
+    row.sheet = table.sheet[f];
     rows.push_back(row);
   }
 }
@@ -193,28 +193,39 @@ Vec3 find_first_edge(const OutlineTable& outlines, uint32_t p) {
   return Vec3(1, 0, 0);
 }
 
+// `first_of_sheet`: of each sheet the face that came first.
 void add_polygon_faces(const CutTable& table, const MaterialTable& materials, const ObjectTable& objects,
                        const OutlineTable& outlines, const Tree& tree, uint32_t p, std::vector<FaceRow>& rows,
-                       Scene& scene) {
+                       std::vector<uint32_t>& first_of_sheet, Scene& scene) {
   const uint32_t object = outlines.object[p], material = outlines.material[p];
   const bool two_sided = objects.two_sided[object] != 0;
   const auto emission = Rgb(materials.emission[material]);
   const auto reflectance = Rgb(materials.reflectance[material]);
   const auto patch_size = to_patch_size(objects.patch_size[object] / scene.units_per_length);
+  const auto patch_size_min = to_patch_size(objects.patch_size_min[object] / scene.units_per_length);
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
   convert_faces(table, p, scene, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());
   const Vec3 first_edge = find_first_edge(outlines, p);
-  const auto first = static_cast<uint32_t>(scene.faces.size()), count = static_cast<uint32_t>(rows.size());
+  for (FaceRow& row : rows) {
+    if (row.sides != (kFrontSide | kBackSide)) continue;
+    row.sheet = static_cast<uint32_t>(first_of_sheet.size());
+    first_of_sheet.push_back(kNone);
+  }
   for (int side = 0; side < (two_sided ? 2 : 1); ++side) {
     const auto polygon = static_cast<uint32_t>(scene.polygons.size());
-    for (uint32_t k = 0; k < count; ++k)
-      push_face(scene.faces, side == 0 ? rows[k] : turned_over(rows[k]), emission, reflectance, polygon,
-                objects.is_mesh[object] ? object : kNone,
-                !two_sided  ? kNone
-                : side == 0 ? first + count + k
-                            : first + k,
-                patch_size, level);
+    for (const FaceRow& row : rows) {
+      if (!(row.sides & (side == 0 ? kFrontSide : kBackSide))) continue;
+      const auto face = static_cast<uint32_t>(scene.faces.size());
+      push_face(scene.faces, side == 0 ? row : turned_over(row), emission, reflectance, polygon,
+                objects.is_smooth[object] ? object : kNone, patch_size, patch_size_min, level);
+      if (row.sheet == kNone) continue;
+      uint32_t& first = first_of_sheet[row.sheet];
+      if (first == kNone)
+        first = face;
+      else
+        scene.faces.twin[face] = first, scene.faces.twin[first] = face;
+    }
     scene.polygons.id.push_back(outlines.id[p] + (side == 0 ? "" : ".back"));
     scene.polygons.object.push_back(objects.top[object]);
     scene.polygons.line.push_back(line);
@@ -253,18 +264,27 @@ void warn_of_lost(Messages& messages, const Tree& tree, const OutlineTable& outl
                           escape_text(outlines.id[p])));
 }
 
+void make_sheets(Messages& messages, const Tree& tree, const MaterialTable& materials,
+                 const ObjectTable& objects, const OutlineTable& outlines, double length, CutTable& table) {
+  const std::vector<Overlap> overlaps = find_overlaps(objects, outlines, table, length);
+  warn_of_coincident(messages, tree, objects, outlines, table, overlaps);
+  std::vector<uint8_t> emits(outlines.size(), 0);
+  for (uint32_t p = 0; p < outlines.size(); ++p)
+    emits[p] = outlines.material[p] != kNone && materials.emission[outlines.material[p]] != DRgb(0);
+  join_sheets(objects, outlines, emits, overlaps, length, table);
+}
+
 }  // namespace
 
 void make_faces(Messages& messages, const Tree& tree, const MaterialTable& materials,
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
                 Scene& scene) {
   Sums sums;
-  const CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
+  CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
   if (messages.error_count > 0 || outlines.size() == 0) return;
   if (!(sums.area > 0))
     return add_error(messages, place_of(tree, outlines.ring_node[0]), "zero-area",
                      "all polygons are too small: their area is 0 even in double precision");
-  check_start_patches(messages, tree, table, objects, outlines, start_patches_max);
   if (sums.largest > kSizeRatioMax * sums.smallest)
     add_warning(messages, place_of(tree, outlines.ring_node[outlines.polygon_first[sums.smallest_polygon]]),
                 "scale-ratio",
@@ -272,16 +292,18 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                             "precision may lose it",
                             escape_text(outlines.id[sums.smallest_polygon]), sums.largest / sums.smallest,
                             kSizeRatioMax));
-  warn_of_coincident(messages, tree, objects, outlines);
   set_units(sums, scene);
+  make_sheets(messages, tree, materials, objects, outlines, scene.units_per_length, table);
+  check_start_patches(messages, tree, table, objects, outlines, start_patches_max);
   scene.object_ids = objects.top_ids;
   scene.is_heat = std::all_of(outlines.material.begin(), outlines.material.end(),
                               [&](uint32_t row) { return materials.is_heat[row] != 0; });
   scene.polygons.face_first.assign(1, 0);
   std::vector<FaceRow> rows;
+  std::vector<uint32_t> first_of_sheet(table.sheet_count, kNone);
   for (uint32_t p = 0; p < outlines.size(); ++p) {
     const size_t faces_before = scene.faces.size();
-    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, scene);
+    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, first_of_sheet, scene);
     if (scene.faces.size() == faces_before && table.face_first[p] < table.face_first[p + 1])
       warn_of_lost(messages, tree, outlines, p);
   }
@@ -289,57 +311,7 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
     add_error(messages, place_of(tree, outlines.ring_node[0]), "coordinate-too-large",
               "all polygons are lost in single precision: they are too small for their distances; move them "
               "nearer to each other");
-}
-
-void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable& objects,
-                        const OutlineTable& outlines) {
-  struct Row {
-    uint64_t hash;
-    uint32_t polygon;
-  };
-  const auto mix = [](uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  };
-  const auto ring = [&](uint32_t p) { return ring_of(outlines, outlines.polygon_first[p]); };
-  std::vector<Row> rows(outlines.size());
-  for (uint32_t p = 0; p < outlines.size(); ++p) {
-    uint64_t sum = 0;  // a sum: the order of the corners does not matter
-    for (const DVec3& c : ring(p))
-      sum += mix(mix(mix(std::bit_cast<uint64_t>(c.x + 0.0)) + std::bit_cast<uint64_t>(c.y + 0.0)) +
-                 std::bit_cast<uint64_t>(c.z + 0.0));
-    rows[p] = {sum, p};
-  }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return a.hash != b.hash ? a.hash < b.hash : a.polygon < b.polygon;
-  });
-  std::vector<Row> found;  // later polygon and, as hash, the earlier one
-  for (size_t k = 1; k < rows.size(); ++k)
-    if (rows[k].hash == rows[k - 1].hash && ring(rows[k].polygon).size() == ring(rows[k - 1].polygon).size())
-      found.push_back({rows[k - 1].polygon, rows[k].polygon});
-  std::sort(found.begin(), found.end(), [](const Row& a, const Row& b) { return a.polygon < b.polygon; });
-  std::vector<uint32_t> in_mesh(objects.size(), 0);  // pairs within one mesh
-  for (const Row& row : found) {
-    const uint32_t object = outlines.object[row.polygon];
-    if (objects.is_mesh[object] && outlines.object[static_cast<uint32_t>(row.hash)] == object) {
-      ++in_mesh[object];
-      continue;
-    }
-    add_warning(
-        messages, place_of(tree, outlines.ring_node[outlines.polygon_first[row.polygon]]), "coincident",
-        fmt::format(
-            "'{}' lies on '{}': the same corners; light and shadow between the two are left to rounding",
-            escape_text(outlines.id[row.polygon]),
-            escape_text(outlines.id[static_cast<uint32_t>(row.hash)])));
-  }
-  for (uint32_t object = 0; object < objects.size(); ++object)
-    if (in_mesh[object] > 0)
-      add_warning(
-          messages, place_of(tree, objects.node[object]), "coincident",
-          fmt::format("{} faces of this mesh lie on others of it; light and shadow between the two are "
-                      "left to rounding",
-                      in_mesh[object]));
+  share_power(messages, tree, materials, objects, outlines, scene);
 }
 
 }  // namespace patchlight

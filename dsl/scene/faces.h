@@ -15,9 +15,4 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
                 Scene& scene);
 
-// Warns of polygons that have the very same corners as an earlier one, in any order; of all such faces of one
-// mesh together.
-void warn_of_coincident(Messages& messages, const Tree& tree, const ObjectTable& objects,
-                        const OutlineTable& outlines);
-
 }  // namespace patchlight

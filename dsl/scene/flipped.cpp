@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -186,6 +187,22 @@ double solid_angle(const OutlineTable& outlines, uint32_t p, DVec3 from) {
   return sum;
 }
 
+std::vector<uint32_t> list_lamps(const MaterialTable& materials, const OutlineTable& outlines) {
+  std::vector<uint32_t> lamps;
+  for (uint32_t p = 0; p < outlines.size(); ++p) {
+    const DRgb e = outlines.material[p] == kNone ? DRgb(0) : materials.emission[outlines.material[p]];
+    if (std::max({e.r, e.g, e.b}) > 0) lamps.push_back(p);
+  }
+  return lamps;
+}
+
+DVec3 middle_of(const OutlineTable& outlines, uint32_t p) {
+  DVec3 middle(0);
+  const auto corners = ring_of(outlines, outlines.polygon_first[p]);
+  for (const DVec3& corner : corners) middle += corner / static_cast<double>(corners.size());
+  return middle;
+}
+
 // Lamps among the backs of a shell whose polygons agree. One warning a shell.
 void warn_of_inside_out(Messages& messages, const Tree& tree, const MaterialTable& materials,
                         const OutlineTable& outlines, const Shells& shells,
@@ -193,20 +210,14 @@ void warn_of_inside_out(Messages& messages, const Tree& tree, const MaterialTabl
   std::vector<std::vector<uint32_t>> members(shells.size());
   for (uint32_t p = 0; p < outlines.size(); ++p)
     if (shells.shell[p] != kNone) members[shells.shell[p]].push_back(p);
-  std::vector<uint32_t> lamps;
-  for (uint32_t p = 0; p < outlines.size(); ++p) {
-    const DRgb e = outlines.material[p] == kNone ? DRgb(0) : materials.emission[outlines.material[p]];
-    if (std::max({e.r, e.g, e.b}) > 0) lamps.push_back(p);
-  }
+  const std::vector<uint32_t> lamps = list_lamps(materials, outlines);
   size_t angles = 0;
   for (uint32_t shell = 0; shell < shells.size(); ++shell) {
     if (shells.bad[shell] || minority[shell] != 2 || members[shell].size() < kShellPolygonsMin) continue;
     for (const uint32_t lamp : lamps) {
       if (shells.shell[lamp] == shell) continue;
       if ((angles += members[shell].size()) > kSolidAnglesMax) return;
-      DVec3 middle(0);
-      const auto corners = ring_of(outlines, outlines.polygon_first[lamp]);
-      for (const DVec3& corner : corners) middle += corner / static_cast<double>(corners.size());
+      const DVec3 middle = middle_of(outlines, lamp);
       double angle = 0;
       for (const uint32_t p : members[shell]) angle += solid_angle(outlines, p, middle);
       if (angle < kSurrounded * 4 * std::numbers::pi) continue;
@@ -252,6 +263,75 @@ void warn_of_flipped(Messages& messages, const Tree& tree, const MaterialTable& 
                             escape_text(outlines.id[second])));
   }
   warn_of_inside_out(messages, tree, materials, outlines, shells, minority);
+}
+
+namespace {
+
+// Six times the volume that polygons enclose, seen from `base`; below 0 where their backs are outside.
+double volume_of(const OutlineTable& outlines, uint32_t first, uint32_t last, DVec3 base) {
+  double sum = 0;
+  for (uint32_t p = first; p < last; ++p) {
+    const auto corners = ring_of(outlines, outlines.polygon_first[p]);
+    for (size_t k = 1; k + 1 < corners.size(); ++k)
+      sum += glm::dot(corners[0] - base, glm::cross(corners[k] - base, corners[k + 1] - base));
+  }
+  return sum;
+}
+
+// Is every edge run as often one way as the other?
+bool is_closed(const OutlineTable& outlines, const std::vector<uint32_t>& number, uint32_t first,
+               uint32_t last) {
+  std::vector<std::array<uint32_t, 3>> edges;  // the lower corner, the higher one, 1: from the higher one
+  for (uint32_t p = first; p < last; ++p) {
+    const uint32_t ring = outlines.polygon_first[p];
+    const uint32_t begin = outlines.ring_first[ring], end = outlines.ring_first[ring + 1];
+    for (uint32_t k = begin; k < end; ++k) {
+      const uint32_t a = number[k], b = number[k + 1 < end ? k + 1 : begin];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), a > b ? 1u : 0u});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (size_t k = 0, next = 0; k < edges.size(); k = next) {
+    size_t down = 0;
+    while (next < edges.size() && edges[next][0] == edges[k][0] && edges[next][1] == edges[k][1])
+      down += edges[next++][2];
+    if (2 * down != next - k) return false;
+  }
+  return !edges.empty();
+}
+
+}  // namespace
+
+void warn_of_inside_out_meshes(Messages& messages, const Tree& tree, const MaterialTable& materials,
+                               const ObjectTable& objects, const OutlineTable& outlines,
+                               std::span<const Camera> cameras) {
+  std::vector<uint32_t> number;
+  std::vector<DVec3> points;  // of lamps and cameras
+  for (const Camera& camera : cameras) points.push_back(camera.eye);
+  std::vector<uint32_t> lamps = list_lamps(materials, outlines);
+  for (const uint32_t lamp : lamps) points.push_back(middle_of(outlines, lamp));
+  size_t angles = 0;
+  for (uint32_t first = 0, last = 0; first < outlines.size(); first = last) {
+    const uint32_t object = outlines.object[first];
+    while (last < outlines.size() && outlines.object[last] == object) ++last;
+    if (!objects.is_mesh[object] || objects.two_sided[object]) continue;
+    const DVec3 base = outlines.corners[outlines.ring_first[outlines.polygon_first[first]]];
+    if (!(volume_of(outlines, first, last, base) < 0)) continue;
+    if (number.empty()) number = number_points(outlines);
+    if (!is_closed(outlines, number, first, last)) continue;
+    bool is_room = false;
+    for (const DVec3& point : points) {
+      if ((angles += last - first) > kSolidAnglesMax) return;
+      double angle = 0;
+      for (uint32_t p = first; p < last; ++p) angle += solid_angle(outlines, p, point);
+      is_room = is_room || std::abs(angle) > kSurrounded * 4 * std::numbers::pi;
+    }
+    if (is_room) continue;
+    add_warning(
+        messages, place_of(tree, objects.node[object]), "inside-out",
+        "this mesh is closed and all its faces look inward: from outside its backs are seen, which stay "
+        "dark; turn the order of the corners round in the file, or make it two_sided");
+  }
 }
 
 }  // namespace patchlight

@@ -154,7 +154,8 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   throw_errors(messages);
   warn_of_materials(context, objects.materials, root);
   warn_of_flipped(messages, tree, objects.materials, objects.objects, objects.outlines);
-  warn_of_overlaps(messages, tree, objects.objects, objects.outlines, scene);
+  warn_of_inside_out_meshes(messages, tree, objects.materials, objects.objects, objects.outlines,
+                            scene.cameras);
   convert_lengths(scene);
   if (scene.cameras.empty()) scene.cameras.push_back(fit_camera(scene.faces));
   scene.settings = list_settings(context, map, scene);

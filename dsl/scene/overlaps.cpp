@@ -1,7 +1,6 @@
-// Polygons in one plane that overlap and face the same way.
+// Polygons in one plane that overlap.
+#include "dsl/scene/sheets.h"
 #include "dsl/scene/suspicious.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -12,57 +11,51 @@ namespace {
 
 constexpr double kSmaller = 1 - 1e-5;
 constexpr double kOneAngle = 1e-6;        // of normals: 1 - cosine
-constexpr double kOnePlane = 2e-6;        // lengths: about a ray's offset
+constexpr double kOnePlane = 2e-6;        // engine lengths: about a ray's offset
 constexpr double kOverlapMin = 1e-5;      // share of the smaller polygon's area
 constexpr size_t kPairsMax = 5'000'000;   // of polygons that are compared
 constexpr size_t kWorkMax = 200'000'000;  // pairs of their faces and corners: what is beyond is not searched
 
-// The polygons of a scene, two-sided ones with two rows, as far as they are searched.
+struct Box {
+  DVec3 low{1e300}, high{-1e300};
+  void add(DVec3 p) { low = glm::min(low, p), high = glm::max(high, p); }
+};
+
+// The polygons of a scene as far as they are searched.
 struct PlaneTable {
-  std::vector<uint32_t> polygon;  // row of scene.polygons
-  std::vector<uint32_t> outline;  // row of OutlineTable
-  std::vector<DVec3> normal, low, high;
+  std::vector<uint32_t> polygon;  // row of OutlineTable
+  std::vector<DVec3> normal;
+  std::vector<Box> box;
   std::vector<double> offset;  // along the normal, which is turned so that it points up for this
   std::vector<double> area;
   size_t size() const { return polygon.size(); }
 };
 
-double face_area(const FaceTable& faces, uint32_t f) {
-  const auto& c = faces.corners[f];
-  return glm::length(glm::cross(DVec3(c[2]) - DVec3(c[0]), DVec3(c[3]) - DVec3(c[1]))) / 2;
+DVec3 corner_of(const CutTable& table, uint32_t p, uint32_t face, size_t corner) {
+  return table.points[table.point_first[p] + table.faces[face][corner]];
 }
 
-PlaneTable list_planes(const ObjectTable& objects, const OutlineTable& outlines, const Scene& scene) {
+PlaneTable list_planes(const ObjectTable& objects, const OutlineTable& outlines, const CutTable& table) {
   PlaneTable planes;
-  const FaceTable& faces = scene.faces;
-  uint32_t polygon = 0;
   for (uint32_t p = 0; p < outlines.size(); ++p) {
-    const uint32_t object = outlines.object[p];
-    for (int side = 0; side < (objects.two_sided[object] ? 2 : 1); ++side, ++polygon) {
-      const uint32_t first = scene.polygons.face_first[polygon],
-                     last = scene.polygons.face_first[polygon + 1];
-      if (objects.is_mesh[object] || first == last) continue;
-      DVec3 low(1e300), high(-1e300);
-      double area = 0;
-      for (uint32_t f = first; f < last; ++f) {
-        area += face_area(faces, f);
-        for (const Vec3& corner : faces.corners[f]) {
-          low = glm::min(low, DVec3(corner));
-          high = glm::max(high, DVec3(corner));
-        }
-      }
-      const DVec3 normal(faces.normal[first]);
-      const double offset = glm::dot(normal, DVec3(faces.corners[first][0]));
-      const bool down = normal.x < -0.5 || (std::abs(normal.x) <= 0.5 &&
-                                            (normal.y < -0.5 || (std::abs(normal.y) <= 0.5 && normal.z < 0)));
-      planes.polygon.push_back(polygon);
-      planes.outline.push_back(p);
-      planes.normal.push_back(normal);
-      planes.low.push_back(low);
-      planes.high.push_back(high);
-      planes.offset.push_back(down ? -offset : offset);
-      planes.area.push_back(area);
+    const uint32_t first = table.face_first[p], last = table.face_first[p + 1];
+    if (objects.is_mesh[outlines.object[p]] || first == last) continue;
+    Box box;
+    double area = 0;
+    for (uint32_t f = first; f < last; ++f) {
+      const auto at = [&](size_t k) { return corner_of(table, p, f, k); };
+      area += glm::length(glm::cross(at(2) - at(0), at(3) - at(1))) / 2;
+      for (size_t k = 0; k < 4; ++k) box.add(at(k));
     }
+    const DVec3 normal = table.normal[p];
+    const double offset = glm::dot(normal, corner_of(table, p, first, 0));
+    const bool down = normal.x < -0.5 || (std::abs(normal.x) <= 0.5 &&
+                                          (normal.y < -0.5 || (std::abs(normal.y) <= 0.5 && normal.z < 0)));
+    planes.polygon.push_back(p);
+    planes.normal.push_back(normal);
+    planes.box.push_back(box);
+    planes.offset.push_back(down ? -offset : offset);
+    planes.area.push_back(area);
   }
   return planes;
 }
@@ -96,32 +89,32 @@ struct FlatFace {
   DVec2 low, high;
 };
 
-std::vector<FlatFace> flatten_faces(const FaceTable& faces, uint32_t first, uint32_t last, DVec3 normal) {
+std::vector<FlatFace> flatten_faces(const CutTable& table, uint32_t p, DVec3 normal, DVec3 origin) {
   const DVec3 along =
       glm::normalize(glm::cross(std::abs(normal.x) < 0.5 ? DVec3(1, 0, 0) : DVec3(0, 1, 0), normal));
   const DVec3 across = glm::cross(normal, along);
   std::vector<FlatFace> flat;
-  flat.reserve(last - first);
-  for (uint32_t f = first; f < last; ++f) {
-    FlatFace face{{}, faces.corner_count[f], DVec2(1e300), DVec2(-1e300)};
+  for (uint32_t f = table.face_first[p]; f < table.face_first[p + 1]; ++f) {
+    FlatFace face{{}, is_triangle(table.faces[f]) ? 3u : 4u, DVec2(1e300), DVec2(-1e300)};
     for (size_t k = 0; k < face.count; ++k) {
-      const DVec3 corner(faces.corners[f][k]);
+      const DVec3 corner = corner_of(table, p, f, k) - origin;
       face.corner[k] = DVec2(glm::dot(corner, along), glm::dot(corner, across));
       face.low = glm::min(face.low, face.corner[k]);
       face.high = glm::max(face.high, face.corner[k]);
     }
+    // Counter-clockwise on this plane, whichever way the polygon faces.
+    if (glm::dot(table.normal[p], normal) < 0)
+      std::reverse(face.corner.begin(), face.corner.begin() + static_cast<ptrdiff_t>(face.count));
     flat.push_back(face);
   }
   return flat;
 }
 
-// Do the faces of two polygons in one plane have more than that area in common (lengths squared)?
-bool share_area(const FaceTable& faces, const PolygonTable& polygons, uint32_t a, uint32_t b, DVec3 normal,
-                double least) {
-  const auto flat = [&](uint32_t p) {
-    return flatten_faces(faces, polygons.face_first[p], polygons.face_first[p + 1], normal);
-  };
-  const std::vector<FlatFace> cutters = flat(a), others = flat(b);
+// Do the faces of two polygons in one plane have more than that area in common (file units squared)?
+bool share_area(const CutTable& table, uint32_t a, uint32_t b, double least) {
+  const DVec3 normal = table.normal[a], origin = corner_of(table, a, table.face_first[a], 0);
+  const std::vector<FlatFace> cutters = flatten_faces(table, a, normal, origin),
+                              others = flatten_faces(table, b, normal, origin);
   std::vector<DVec2> points;
   double sum = 0;
   for (const FlatFace& cutter : cutters)
@@ -147,66 +140,93 @@ bool same_corners(const OutlineTable& outlines, uint32_t p, uint32_t q) {
          });
 }
 
-// Do two polygons lie in one plane, face the same way and overlap? `work` counts the pairs of faces and
-// corners that this took; false where it would take more than kWorkMax.
-bool is_overlap(const PlaneTable& planes, const OutlineTable& outlines, const Scene& scene, size_t i,
-                size_t j, size_t& work) {
-  if (glm::dot(planes.normal[i], planes.normal[j]) < 1 - kOneAngle) return false;
+struct Search {
+  const ObjectTable& objects;
+  const OutlineTable& outlines;
+  const CutTable& table;
+  const PlaneTable& planes;
+  std::vector<Box> object_box;  // a row an object: all its polygons that are searched
+  double near;                  // file units
+  size_t work = 0;              // pairs of faces and corners that were compared
+};
+
+bool holds(const Box& outer, const Box& inner, double near) {
   for (int axis = 0; axis < 3; ++axis)
-    if (planes.low[i][axis] > planes.high[j][axis] + kOnePlane ||
-        planes.low[j][axis] > planes.high[i][axis] + kOnePlane)
+    if (inner.low[axis] < outer.low[axis] - near || inner.high[axis] > outer.high[axis] + near) return false;
+  return true;
+}
+
+// Does a solid stand on the front of the other polygon, where nothing is to be lit? A room that is drawn
+// inside of a box is no such case.
+bool is_buried(const Search& search, uint32_t p, uint32_t q) {
+  const uint32_t solid = search.outlines.object[p], other = search.outlines.object[q];
+  if (!search.objects.is_solid[solid]) return false;
+  return search.objects.is_solid[other] ||
+         !holds(search.object_box[solid], search.object_box[other], search.near);
+}
+
+// False where two rows of the planes do not overlap, or to tell would take more than kWorkMax.
+bool find_overlap(Search& search, size_t i, size_t j, Overlap& overlap) {
+  const PlaneTable& planes = search.planes;
+  const CutTable& table = search.table;
+  const double cosine = glm::dot(planes.normal[i], planes.normal[j]);
+  if (std::abs(cosine) < 1 - kOneAngle) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (planes.box[i].low[axis] > planes.box[j].high[axis] + search.near ||
+        planes.box[j].low[axis] > planes.box[i].high[axis] + search.near)
       return false;
-  const size_t small = planes.area[i] < planes.area[j] ? i : j, large = small == i ? j : i;
-  const FaceTable& faces = scene.faces;
-  const PolygonTable& polygons = scene.polygons;
-  const DVec3 origin(faces.corners[polygons.face_first[planes.polygon[large]]][0]);
-  for (uint32_t f = polygons.face_first[planes.polygon[small]];
-       f < polygons.face_first[planes.polygon[small] + 1]; ++f)
-    for (const Vec3& corner : faces.corners[f])
-      if (std::abs(glm::dot(DVec3(corner) - origin, planes.normal[large])) > kOnePlane) return false;
-  const auto face_count = [&](size_t k) -> size_t {
-    return polygons.face_first[planes.polygon[k] + 1] - polygons.face_first[planes.polygon[k]];
+  // The smaller one is the lamp or the rug; of equals, but for rounding, the later.
+  const auto [first, second] = std::minmax(i, j);
+  const size_t small = planes.area[first] < planes.area[second] * kSmaller ? first : second,
+               large = small == first ? second : first;
+  const uint32_t p = planes.polygon[small], q = planes.polygon[large];
+  const DVec3 origin = corner_of(table, q, table.face_first[q], 0);
+  for (uint32_t f = table.face_first[p]; f < table.face_first[p + 1]; ++f)
+    for (size_t k = 0; k < 4; ++k)
+      if (std::abs(glm::dot(corner_of(table, p, f, k) - origin, planes.normal[large])) > search.near)
+        return false;
+  const bool any_two_sided = search.objects.two_sided[search.outlines.object[p]] ||
+                             search.objects.two_sided[search.outlines.object[q]];
+  const auto face_count = [&](uint32_t of) -> size_t {
+    return table.face_first[of + 1] - table.face_first[of];
   };
-  const auto corner_count = [&](size_t k) {
-    return ring_of(outlines, outlines.polygon_first[planes.outline[k]]).size();
+  const auto corner_count = [&](uint32_t of) {
+    return ring_of(search.outlines, search.outlines.polygon_first[of]).size();
   };
-  const size_t needed = face_count(i) * face_count(j) + corner_count(i) * corner_count(j);
-  if (needed > kWorkMax - work) return false;
-  work += needed;
-  return !same_corners(outlines, planes.outline[i], planes.outline[j]) &&
-         share_area(faces, polygons, planes.polygon[i], planes.polygon[j], planes.normal[large],
-                    kOverlapMin * planes.area[small]);
+  const size_t needed = face_count(p) * face_count(q) + corner_count(p) * corner_count(q);
+  if (needed > kWorkMax - search.work) return false;
+  search.work += needed;
+  overlap = {p, q, cosine > 0 || any_two_sided, same_corners(search.outlines, p, q)};
+  if (!overlap.one_way && !overlap.same_corners && (is_buried(search, p, q) || is_buried(search, q, p)))
+    return false;
+  return overlap.same_corners || share_area(table, q, p, kOverlapMin * planes.area[small]);
 }
 
 }  // namespace
 
-void warn_of_overlaps(Messages& messages, const Tree& tree, const ObjectTable& objects,
-                      const OutlineTable& outlines, const Scene& scene) {
-  if (outlines.size() > kPolygonsSearched) return;
-  const PlaneTable planes = list_planes(objects, outlines, scene);
+std::vector<Overlap> find_overlaps(const ObjectTable& objects, const OutlineTable& outlines,
+                                   const CutTable& table, double length) {
+  std::vector<Overlap> overlaps;
+  if (outlines.size() > kPolygonsSearched) return overlaps;
+  const PlaneTable planes = list_planes(objects, outlines, table);
+  Search search{objects, outlines, table, planes, std::vector<Box>(objects.size()), kOnePlane * length};
   std::vector<size_t> order(planes.size());
-  for (size_t k = 0; k < order.size(); ++k) order[k] = k;
+  for (size_t k = 0; k < order.size(); ++k) {
+    order[k] = k;
+    Box& box = search.object_box[outlines.object[planes.polygon[k]]];
+    box.add(planes.box[k].low), box.add(planes.box[k].high);
+  }
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return planes.offset[a] != planes.offset[b] ? planes.offset[a] < planes.offset[b] : a < b;
   });
-  size_t pairs = 0, work = 0;
+  size_t pairs = 0;
   for (size_t i = 0; i < order.size(); ++i)
     for (size_t j = i + 1;
-         j < order.size() && planes.offset[order[j]] - planes.offset[order[i]] < 4 * kOnePlane; ++j) {
-      if (++pairs > kPairsMax) return;
-      if (!is_overlap(planes, outlines, scene, order[i], order[j], work)) continue;
-      // The smaller one is the lamp or the rug; of equals, but for rounding, the later.
-      const auto [first, second] = std::minmax(order[i], order[j]);
-      const size_t small = planes.area[first] < planes.area[second] * kSmaller ? first : second,
-                   large = small == first ? second : first;
-      const uint32_t p = planes.outline[small];
-      add_warning(
-          messages, place_of(tree, outlines.ring_node[outlines.polygon_first[p]]), "coincident",
-          fmt::format("'{}' lies in the plane of '{}' and overlaps it; light and shadow between the two "
-                      "are left to rounding: move it a little off",
-                      escape_text(scene.polygons.id[planes.polygon[small]]),
-                      escape_text(scene.polygons.id[planes.polygon[large]])));
+         j < order.size() && planes.offset[order[j]] - planes.offset[order[i]] < 4 * search.near; ++j) {
+      if (++pairs > kPairsMax) return overlaps;
+      if (Overlap overlap; find_overlap(search, order[i], order[j], overlap)) overlaps.push_back(overlap);
     }
+  return overlaps;
 }
 
 }  // namespace patchlight

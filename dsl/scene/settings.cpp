@@ -56,6 +56,8 @@ void read_solver(const Context& context, uint32_t node, SolverSettings& solver) 
   solver.pass_count_max = static_cast<uint32_t>(value_of(map, "passes").integer[0]);
   solver.until = value_of(map, "until").number[0];
   solver.threshold = static_cast<float>(value_of(map, "threshold").number[0]);
+  // What the author sets holds for the patches that carry light between surfaces, too.
+  if (has(map, "threshold")) solver.threshold_indirect = solver.threshold;
   solver.patch_count_max = static_cast<uint64_t>(value_of(map, "max_patches").integer[0]);
   solver.rays = static_cast<uint32_t>(value_of(map, "rays").integer[0]);
   solver.error = value_of(map, "error").number[0];

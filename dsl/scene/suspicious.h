@@ -1,4 +1,4 @@
-// What is legal and probably not meant: walls whose corners run the wrong way, and polygons in one plane.
+// What is legal and probably not meant: walls whose corners run the wrong way.
 #pragma once
 
 #include "dsl/models/materials.h"
@@ -6,6 +6,8 @@
 #include "dsl/report/messages.h"
 #include "dsl/scene/scene.h"
 #include "dsl/yaml/tree.h"
+
+#include <span>
 
 namespace patchlight {
 
@@ -20,11 +22,10 @@ constexpr size_t kPolygonsSearched = 20'000;
 void warn_of_flipped(Messages& messages, const Tree& tree, const MaterialTable& materials,
                      const ObjectTable& objects, const OutlineTable& outlines);
 
-// Warns (coincident) of polygons in one plane, up to a ray's offset, that overlap and face the same way: a
-// lamp in the plane of its ceiling. The faces are those of `scene`, engine lengths; outlines and
-// scene.polygons follow each other. Polygons with the very same corners are left to warn_of_coincident
-// (faces.h).
-void warn_of_overlaps(Messages& messages, const Tree& tree, const ObjectTable& objects,
-                      const OutlineTable& outlines, const Scene& scene);
+// Warns (inside-out) of meshes that are closed and whose faces all look inward, though neither a lamp nor a
+// camera is in them. Eyes of cameras are in file units.
+void warn_of_inside_out_meshes(Messages& messages, const Tree& tree, const MaterialTable& materials,
+                               const ObjectTable& objects, const OutlineTable& outlines,
+                               std::span<const Camera> cameras);
 
 }  // namespace patchlight

@@ -34,6 +34,8 @@ constexpr KeyRow kLastRows[] = {
     {"two_sided", kBoolean, false, "false", 0, 0, "", "", "Both sides are lit, each with its own patches."},
     {"patch_size", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
      "Longest edge of a starting patch on this object. Absent: as the solver says."},
+    {"patch_size_min", kNumber, false, "", kAboveZero, kCoordinateMax, "out-of-range", "",
+     "Its patches with a longest edge below this are not split. Absent: as the solver says."},
     {"subdivide", kInteger, false, "1", 1, kAnyInteger, "out-of-range", "",
      "At least n times n patches on each polygon to start with."},
 };

@@ -44,6 +44,7 @@ bool read_own(const Context& context, const MapValues& map, MaterialTable& mater
   }
   if (has(map, "two_sided")) own.two_sided = value_of(map, "two_sided").integer[0] != 0;
   if (has(map, "patch_size")) own.patch_size = value_of(map, "patch_size").number[0];
+  if (has(map, "patch_size_min")) own.patch_size_min = value_of(map, "patch_size_min").number[0];
   if (has(map, "subdivide")) {
     own.subdivide = static_cast<uint32_t>(
         std::min<int64_t>(value_of(map, "subdivide").integer[0], std::numeric_limits<uint32_t>::max()));
@@ -57,7 +58,10 @@ uint32_t add_object(uint32_t node, const Inherited& own, ObjectTable& objects) {
   objects.top.push_back(own.top);
   objects.two_sided.push_back(own.two_sided);
   objects.is_mesh.push_back(0);
+  objects.is_smooth.push_back(0);
+  objects.is_solid.push_back(0);
   objects.patch_size.push_back(own.patch_size);
+  objects.patch_size_min.push_back(own.patch_size_min);
   objects.subdivide.push_back(own.subdivide);
   objects.subdivide_node.push_back(own.subdivide_node);
   return static_cast<uint32_t>(objects.size() - 1);

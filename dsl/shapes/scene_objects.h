@@ -15,7 +15,7 @@ struct Inherited {
   uint32_t top = 0;           // row of ObjectTable::top_ids
   uint32_t material = kNone;  // row of MaterialTable
   bool two_sided = false;
-  double patch_size = 0;  // file units; 0: as the settings say
+  double patch_size = 0, patch_size_min = 0;  // file units; 0: as the settings say
   uint32_t subdivide = 1;
   uint32_t subdivide_node = kNone;
 };

@@ -19,6 +19,7 @@ constexpr KeyTable kKeys = {"box", kRows};
 void build(const ShapeInput& input) {
   const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
+  input.scene.objects.is_solid[input.object_row] = 1;
   const DVec3 low = vec3_of(value_of(map, "at")), high = low + vec3_of(value_of(map, "size"));
   for (size_t side = 0; side < kSideNames.size(); ++side)
     add_part(input, fmt::format(".{}", kSideNames[side]), side_corners(side, low, high, false));

@@ -17,6 +17,8 @@ constexpr KeyRow kRows[] = {
     {"sides", kInteger, false, "24", 3, kSidesMax, "out-of-range", "", "Number of walls."},
     {"caps", kBoolean, false, "true", 0, 0, "", "", "With bottom and top."},
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
+    {"smooth", kBoolean, false, "true", 0, 0, "", "",
+     "Sides that meet at 30 degrees or less are shown as one curved surface."},
 };
 
 constexpr KeyTable kKeys = {"cylinder", kRows};
@@ -24,6 +26,7 @@ constexpr KeyTable kKeys = {"cylinder", kRows};
 void build(const ShapeInput& input) {
   const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
+  input.scene.objects.is_smooth[input.object_row] = value_of(map, "smooth").integer[0] != 0;
   // z before x: counter-clockwise seen from above.
   const std::vector<DVec3> low =
       make_ring(vec3_of(value_of(map, "at")), DVec3(0, 0, 1), DVec3(1, 0, 0),

@@ -64,7 +64,7 @@ bool choose_materials(const ShapeInput& input, MeshFile& mesh, std::vector<uint3
 }
 
 void build(const ShapeInput& input) {
-  input.scene.objects.is_mesh[input.object_row] = 1;
+  input.scene.objects.is_mesh[input.object_row] = input.scene.objects.is_smooth[input.object_row] = 1;
   MeshFile* mesh = find_mesh(input.context, input.node, input.scene.meshes);
   if (!mesh) return;
   const MeshTable& table = mesh->table;

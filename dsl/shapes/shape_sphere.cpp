@@ -20,6 +20,8 @@ constexpr KeyRow kRows[] = {
     {"sides", kInteger, false, "24", 3, 1000, "out-of-range", "",
      "Polygons around; half as many rows from pole to pole."},
     {"inward", kBoolean, false, "false", 0, 0, "", "", "All sides face inward."},
+    {"smooth", kBoolean, false, "true", 0, 0, "", "",
+     "Sides that meet at 30 degrees or less are shown as one curved surface."},
 };
 
 constexpr KeyTable kKeys = {"sphere", kRows};
@@ -27,6 +29,7 @@ constexpr KeyTable kKeys = {"sphere", kRows};
 void build(const ShapeInput& input) {
   const MapValues map = read_map(input.context, input.node, kKeys);
   if (!require_material(input) || !map.good) return;
+  input.scene.objects.is_smooth[input.object_row] = value_of(map, "smooth").integer[0] != 0;
   const DVec3 center = vec3_of(value_of(map, "center"));
   const double radius = value_of(map, "radius").number[0];
   const int64_t sides = value_of(map, "sides").integer[0], rows = std::max<int64_t>(2, sides / 2);
@@ -40,6 +43,7 @@ void build(const ShapeInput& input) {
                         ? std::vector<DVec3>{middle}
                         : make_ring(middle, DVec3(0, 0, 1), DVec3(1, 0, 0), radius * std::sin(angle), sides));
   }
+  input.scene.objects.is_solid[input.object_row] = !inward;
   size_t number = 0;
   for (size_t row = 0; row + 1 < rings.size(); ++row)
     for (size_t k = 0; k < static_cast<size_t>(sides); ++k) {

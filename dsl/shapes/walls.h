@@ -24,6 +24,7 @@ inline void add_walls(const ShapeInput& input, const std::vector<DVec3>& low, co
     const size_t next = (k + 1) % low.size();
     add(fmt::format(".{}", k), {low[k], low[next], high[next], high[k]});
   }
+  input.scene.objects.is_solid[input.object_row] = caps && !inward;
   if (!caps) return;
   add(".bottom", std::vector<DVec3>(low.rbegin(), low.rend()));
   add(".top", high);

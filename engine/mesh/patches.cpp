@@ -21,6 +21,8 @@ constexpr float kUnevenPower = 1e-5f;
 constexpr float kUnevenNoise = 3;          // standard errors
 constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's area: no smaller parts
 
+float find_size(const std::vector<float>& asked, uint32_t face) { return asked.empty() ? 0 : asked[face]; }
+
 }  // namespace
 
 Probe probe_cell(const CellRays& rays, const Surfaces& surfaces) {
@@ -50,12 +52,18 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   const FaceLinkTable& links = surfaces.smooth_links;
   const uint64_t patch_count_max = settings.count_max;
   const auto find_scale = [&](uint32_t face) { return surfaces.reach[face] * settings.size_factor; };
+  // A hair of slack, as elements have it: an edge of exactly twice the size is halved once.
+  const auto find_asked = [&](uint32_t face) {
+    const float start = find_size(settings.asked.start, face);
+    return 1.0001f * (start > 0 ? start : find_size(settings.asked.least, face));
+  };
   // Large faces start split, as finely as half of what the faces themselves do not take of the budget allows.
   float edge_max = kPatchEdgeMax;  // scales
   const auto start_level = [&](uint32_t face) {
     uint32_t level = 0;
     float edge = longest_edge(cell_corners(frames, face, 0, 0));
-    while (edge > edge_max * find_scale(face) && level < kLevelMax - 1) edge /= 2, ++level;
+    const float wanted = std::max(edge_max * find_scale(face), find_asked(face));
+    while (edge > wanted && level < kLevelMax - 1) edge /= 2, ++level;
     return level;
   };
   const auto count_at_start = [&] {
@@ -77,6 +85,7 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
         const auto [face, cell, level] = name_cell(patches, row);
         const float edge = longest_edge(cell_corners(frames, face, cell, level)), scale = find_scale(face);
         if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
+        if (edge <= find_asked(face)) continue;
         const Probe probe =
             probe_cell(make_cell_rays(faces, {face, cell, level}, kProbeRays, settings.seed, grid), surfaces);
         probed += probe.ray_count;
@@ -112,7 +121,7 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
   const FaceFrameTable& frames = surfaces.frames;
   const float size_factor = settings.size_factor;
   const float area_factor = size_factor * size_factor;
-  const float share = kUnevenShare * area_factor;
+  const float share = std::max(kUnevenShare * area_factor, settings.threshold);
   double power = 0;
   for (size_t row = 0; row < patches.size(); ++row) power += double{patches.area[row]} * light.total[row];
   const auto power_least = static_cast<float>(kUnevenPower * power) * area_factor * area_factor;
@@ -124,6 +133,7 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
       if (patches.exposed[row] == 0 || level >= kLevelMax - 2) continue;
       const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
       if (size < 2 * kUnevenEdgeMin * surfaces.reach[face] * size_factor) continue;
+      if (size < find_size(settings.asked.least, face)) continue;
       for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
         for (const uint32_t other : find_neighbours(patches, frames, surfaces.links, row, edge)) {
           if (other == kNone || patches.exposed[other] == 0) continue;

@@ -23,15 +23,23 @@ struct Probe {
 };
 Probe probe_cell(const CellRays& rays, const Surfaces& surfaces);
 
+// What an author asks for: longest edges, a row a face, lengths; 0, or no rows: nothing.
+struct AskedSizes {
+  std::vector<float> start;  // of a starting patch
+  std::vector<float> least;  // of a patch that may still be split
+};
+
 struct PatchSettings {
   uint64_t count_max;     // the budget
   float size_factor = 1;  // times all lengths that patches are sized by: below 1 splits further
   uint64_t seed = 1;
+  float threshold = 0;    // least share by which neighbours that are split differ; 0: automatic
+  AskedSizes asked = {};  // they start as coarse as it says, and end there
 };
 
 // Patches by geometry alone: split while larger than kPatchEdgePerDistance of the mean distance to what they
-// see, and about solids. Returns leaves that are balanced across smooth links; ray_count is raised by the
-// probing rays.
+// see, and about solids; not below the starting size that is asked for. Returns leaves that are balanced
+// across smooth links; ray_count is raised by the probing rays.
 PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings, uint64_t& ray_count);
 
 // A first solution on the patches, what they are split by once it is known. A row a patch, W/m2, largest

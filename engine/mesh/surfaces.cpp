@@ -108,6 +108,8 @@ void check_faces(const FaceTable& faces) {
             "another face, or none");
     require(faces.patch_size[f] >= 0 && faces.patch_size[f] <= kLargest, "patch_size", f,
             "finite, at least 0");
+    require(faces.patch_size_min[f] >= 0 && faces.patch_size_min[f] <= kLargest, "patch_size_min", f,
+            "finite, at least 0");
   }
 }
 

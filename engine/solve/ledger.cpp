@@ -1,7 +1,9 @@
 // Where the power went: measured by the rays that patches send, against what patches say that they received.
 #include "engine/base/parallel.h"
 #include "engine/mesh/buried.h"
+#include "engine/mesh/cell.h"
 #include "engine/mesh/cell_rays.h"
+#include "engine/mesh/quadtree.h"
 #include "engine/solve/solve.h"
 
 #include <algorithm>
@@ -16,8 +18,35 @@ struct Shares {
   double nothing = 0, back = 0;  // of what a cell sends; the rest lands on lit sides
 };
 
+// Which of the rays that met lit sides end inside of another solid, where nobody counts what is received: a
+// bit a ray. That is where lamps shine that dip into solids.
+uint32_t find_swallowed(const HitPacket& packet, uint32_t lit, const Solution& s) {
+  const Surfaces& surfaces = *s.surfaces;
+  uint32_t swallowed = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    if (!(lit >> k & 1u)) continue;
+    const uint32_t face = packet.face[k];
+    const RayPacket& r = packet.ray;
+    const Vec3 point = Vec3(r.origin_x[k], r.origin_y[k], r.origin_z[k]) +
+                       r.far_distance[k] * Vec3(r.direction_x[k], r.direction_y[k], r.direction_z[k]);
+    const uint32_t cell =
+        find_cell(surfaces.frames.triangle[face], find_face_parameters(surfaces.frames, face, point));
+    const float exposed = s.mesh.elements.exposed[find_leaf(s.mesh.elements, face, cell)];
+    bool buried = exposed == 0;
+    if (exposed > 0 && exposed < 1) {
+      const Vec3 normal = surfaces.faces.normal[face], start = point + ray_offset(point) * normal;
+      RayPacket probe = r;
+      probe.origin_x[k] = start.x, probe.origin_y[k] = start.y, probe.origin_z[k] = start.z;
+      buried = find_buried(surfaces, make_frame(normal), probe, 1u << k) != 0;
+    }
+    swallowed |= (buried ? 1u : 0u) << k;
+  }
+  return swallowed;
+}
+
 // Where a sender's emission goes. Rays of it alone: a lamp is often a single patch, whose row is short.
-Shares find_emission_shares(const CellRays& rays, const Surfaces& surfaces) {
+Shares find_emission_shares(const CellRays& rays, const Solution& s) {
+  const Surfaces& surfaces = *s.surfaces;
   const RayGrid& grid = rays.grid;
   std::vector<uint32_t> nothing(grid.packet_count()), back(grid.packet_count());
   for_rows(grid.packet_count(), 16, [&](size_t begin, size_t end) {
@@ -25,8 +54,12 @@ Shares find_emission_shares(const CellRays& rays, const Surfaces& surfaces) {
     for (size_t tile = begin; tile < end; ++tile) {
       make_ray_packet(packet, rays, surfaces.frames, static_cast<uint32_t>(tile));
       find_hits(surfaces.tracer, packet, 0xffff);
-      for (const uint32_t face : packet.face) nothing[tile] += face == kNone;
-      back[tile] = static_cast<uint32_t>(std::popcount(find_backs(packet, surfaces.faces, 0xffff)));
+      uint32_t hit = 0;
+      for (uint32_t k = 0; k < kPacketSize; ++k) hit |= (packet.face[k] != kNone ? 1u : 0u) << k;
+      uint32_t backs = find_backs(packet, surfaces.faces, 0xffff);
+      backs |= find_swallowed(packet, hit & ~backs, s);
+      nothing[tile] = static_cast<uint32_t>(std::popcount(~hit & 0xffff));
+      back[tile] = static_cast<uint32_t>(std::popcount(backs));
     }
   });
   Shares shares;
@@ -80,7 +113,7 @@ PowerLedger find_power_ledger(const Solution& s) {
     const double rays = std::clamp(share * kEmissionRayCount, 256.0, double{kEmissionRayCount});
     const Shares shares = find_emission_shares(make_cell_rays(faces, sender, kEmissionRays, s.settings.seed,
                                                               make_ray_grid(static_cast<uint32_t>(rays))),
-                                               *s.surfaces);
+                                               s);
     ledger.escaped += shares.nothing * power;
     ledger.absorbed += shares.back * power;
   }

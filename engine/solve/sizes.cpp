@@ -13,18 +13,31 @@ constexpr float kPatchSize = 1 / 30.0f;
 // Of the starting patch size.
 constexpr float kPatchSizeMin = 1 / 64.0f;
 
-uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& frames, float patch_size) {
+uint64_t count_leaves_at_start(const FaceTable& faces, const FaceFrameTable& frames,
+                               const PatchSizes& sizes) {
   uint64_t count = 0;
   for (uint32_t f = 0; f < faces.size(); ++f)
-    count += uint64_t{1} << 2 * find_start_level(faces, frames, f, patch_size);
+    count += uint64_t{1} << 2 * find_start_level(faces, frames, f, sizes);
   return count;
 }
 
 }  // namespace
 
+AskedSizes find_asked_sizes(const FaceTable& faces, const SolverSettings& settings) {
+  AskedSizes asked{faces.patch_size, faces.patch_size_min};
+  for (size_t f = 0; f < faces.size(); ++f) {
+    // What is asked of one face comes before what is asked of all.
+    if (asked.start[f] <= 0 && settings.patch_size > 0)
+      asked.start[f] = std::max(settings.patch_size, asked.least[f]);
+    if (asked.least[f] <= 0) asked.least[f] = settings.patch_size_min;
+  }
+  return asked;
+}
+
 uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, uint32_t face,
-                          float patch_size) {
-  const float wanted = faces.patch_size[face] > 0 ? faces.patch_size[face] : patch_size;
+                          const PatchSizes& sizes) {
+  const float asked = sizes.asked.start[face];
+  const float wanted = asked > 0 ? asked : std::max(sizes.start, sizes.asked.least[face]);
   uint32_t level = faces.level_min[face];
   // A hair of slack: an edge of exactly twice the patch size is halved once.
   float edge = std::ldexp(longest_edge(cell_corners(frames, face, 0, 0)), -static_cast<int>(level));
@@ -44,22 +57,22 @@ uint64_t count_transport_patches(const FaceTable& faces, const SolverSettings& s
 
 PatchSizes find_patch_sizes(const FaceTable& faces, const FaceFrameTable& frames,
                             const SolverSettings& settings) {
-  float start = settings.patch_size;
-  if (start <= 0) {
+  PatchSizes sizes{settings.patch_size, settings.patch_size_min, find_asked_sizes(faces, settings)};
+  if (sizes.start <= 0) {
     // An automatic size leaves half of what the faces themselves do not take of the budget to the rounds.
     const float scale = find_scene_scale(faces, frames);
     const uint64_t face_count = std::min<uint64_t>(faces.size(), settings.patch_count_max);
     const uint64_t most = face_count + (settings.patch_count_max - face_count) / 2;
-    start = kPatchSize * find_size_factor(settings) * scale;
-    while (start < scale && count_leaves_at_start(faces, frames, start) > most) start *= 1.25f;
+    sizes.start = kPatchSize * find_size_factor(settings) * scale;
+    while (sizes.start < scale && count_leaves_at_start(faces, frames, sizes) > most) sizes.start *= 1.25f;
   }
-  return {start, settings.patch_size_min > 0 ? settings.patch_size_min
-                                             : kPatchSizeMin * find_size_factor(settings) * start};
+  if (sizes.least <= 0) sizes.least = kPatchSizeMin * find_size_factor(settings) * sizes.start;
+  return sizes;
 }
 
 uint64_t count_starting_patches(const FaceTable& faces, const SolverSettings& settings) {
   const FaceFrameTable frames = make_face_frames(faces);
-  return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings).start);
+  return count_leaves_at_start(faces, frames, find_patch_sizes(faces, frames, settings));
 }
 
 }  // namespace patchlight

@@ -25,7 +25,7 @@ FaceTable make_element_faces(const PatchTable& elements, const FaceTable& faces,
     cells.corners.back() = cell_corners(frames, face, elements.cell[row], elements.level[row]);
     cells.polygon.back() = row;
     cells.surface.back() = cells.twin.back() = kNone;
-    cells.patch_size.back() = 0;
+    cells.patch_size.back() = cells.patch_size_min.back() = 0;
     cells.level_min.back() = 0;
   }
   return cells;

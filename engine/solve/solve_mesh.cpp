@@ -20,18 +20,18 @@ constexpr float kLargeElement = 6;       // least sizes
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
 constexpr uint32_t kCoarsePassesMax = 64;
-constexpr uint32_t kPatchRoundsMax = 3;
+constexpr uint32_t kPatchRoundsMax = 3, kAskedRoundsMax = 8;
 // Direct light is smoothed by 8 steps at most (smoothing.h).
 constexpr uint32_t kDirectStrengths = 5;
 
 // Elements: the patches, split on until they are as small as the settings want them to start.
-PatchTable make_elements(const PatchTable& patches, const Surfaces& surfaces, float patch_size) {
+PatchTable make_elements(const PatchTable& patches, const Surfaces& surfaces, const PatchSizes& sizes) {
   const FaceTable& faces = surfaces.faces;
   const FaceFrameTable& frames = surfaces.frames;
   PatchTable elements = patches;
   std::vector<uint8_t> levels(faces.size());
   for (uint32_t f = 0; f < faces.size(); ++f)
-    levels[f] = static_cast<uint8_t>(find_start_level(faces, frames, f, patch_size));
+    levels[f] = static_cast<uint8_t>(find_start_level(faces, frames, f, sizes));
   for (;;) {
     std::vector<uint8_t> marks(elements.size());
     bool any = false;
@@ -73,9 +73,9 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays
                   s.settings.seed);
 }
 
-PatchSettings make_patch_settings(const Solution& s) {
+PatchSettings make_patch_settings(const Solution& s, const AskedSizes& asked) {
   return {count_transport_patches(s.surfaces->faces, s.settings), find_size_factor(s.settings),
-          s.settings.seed};
+          s.settings.seed, s.settings.threshold_indirect, asked};
 }
 
 // One more bounce of the whole coarse solution, with its standard error: what patches receive of all that the
@@ -141,12 +141,14 @@ void find_mean_radiosity(Solution& s) {
 
 // A row a face, lengths: what the author says, or an automatic size as the face's surroundings ask for it.
 std::vector<float> find_least_sizes(const Solution& s) {
-  const float least = find_patch_sizes(s.surfaces->faces, s.surfaces->frames, s.settings).least;
-  std::vector<float> sizes(s.surfaces->faces.size(), least);
-  if (s.settings.patch_size_min > 0 || s.settings.patch_size > 0) return sizes;
-  for (size_t face = 0; face < sizes.size(); ++face)
-    sizes[face] *= s.surfaces->reach[face] / s.surfaces->scale;
-  return sizes;
+  const PatchSizes sizes = find_patch_sizes(s.surfaces->faces, s.surfaces->frames, s.settings);
+  std::vector<float> least = sizes.asked.least;
+  for (size_t face = 0; face < least.size(); ++face) {
+    if (least[face] > 0) continue;
+    least[face] = sizes.least;
+    if (s.settings.patch_size <= 0) least[face] *= s.surfaces->reach[face] / s.surfaces->scale;
+  }
+  return least;
 }
 
 // Standard errors of the elements' coarse radiosities. A difference between two elements of one patch holds
@@ -195,7 +197,7 @@ void split_elements(Solution& s, const std::vector<uint8_t>& marks) {
 
 // Splits patches beside which the coarse solution changes much; false once none does. Rows of patches that
 // stay whole are kept.
-bool split_patches(Solution& s) {
+bool split_patches(Solution& s, const AskedSizes& sizes) {
   Stopwatch watch;
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
@@ -207,7 +209,7 @@ bool split_patches(Solution& s) {
     error[p] = largest(reflectance) * s.light.coarse_error[p];
   }
   const std::vector<uint8_t> marks =
-      mark_uneven(s.mesh.patches, {indirect, total, error}, *s.surfaces, make_patch_settings(s));
+      mark_uneven(s.mesh.patches, {indirect, total, error}, *s.surfaces, make_patch_settings(s, sizes));
   if (std::count(marks.begin(), marks.end(), 1) == 0) {
     s.log.split_seconds += watch.lap();
     return false;
@@ -326,7 +328,8 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   const WorkersScope scope(s.workers);
   Stopwatch watch, whole;
   uint64_t& ray_count = s.log.transport_ray_count;
-  s.mesh.patches = make_patches(*s.surfaces, make_patch_settings(s), ray_count);
+  const AskedSizes asked = find_asked_sizes(s.surfaces->faces, settings);
+  s.mesh.patches = make_patches(*s.surfaces, make_patch_settings(s, asked), ray_count);
   s.transport.receivers = make_receivers(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
   s.log.split_seconds += watch.lap();
   s.mesh.patch_index = make_leaf_index(s.mesh.patches);
@@ -335,7 +338,7 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   s.log.trace_seconds += watch.lap();
   s.mesh.patch_vertices = make_vertices(s.mesh.patches, s.surfaces->frames, s.surfaces->smooth_links);
   s.mesh.elements = make_elements(s.mesh.patches, *s.surfaces,
-                                  find_patch_sizes(s.surfaces->faces, s.surfaces->frames, settings).start);
+                                  find_patch_sizes(s.surfaces->faces, s.surfaces->frames, settings));
   find_element_patches(s);
   s.log.split_seconds += watch.lap();
   s.transport.groups = make_emitter_groups(s.surfaces->faces, s.surfaces->frames);
@@ -351,7 +354,11 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   s.log.trace_seconds += watch.lap();
   find_coarse(s, get_rows(s));
   s.log.solve_seconds += watch.lap();
-  for (uint32_t round = 0; round < kPatchRoundsMax && split_patches(s); ++round) {
+  // Where the author lets patches start coarse, light takes more rounds to find where they are to be fine.
+  const bool is_asked =
+      std::any_of(asked.start.begin(), asked.start.end(), [](float edge) { return edge > 0; });
+  const uint32_t rounds = is_asked ? kAskedRoundsMax : kPatchRoundsMax;
+  for (uint32_t round = 0; round < rounds && split_patches(s, asked); ++round) {
   }
   watch = {};  // the rounds told their time themselves
   s.mesh.fresh = all_rows(s.mesh.elements.size());

@@ -41,7 +41,8 @@ void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const 
     // Consecutive rays part: origins by strata of 4 x 4, pieces evenly.
     const Vec2 place((static_cast<float>(k % 4) + a.x) * 0.25f, (static_cast<float>(k / 4) + a.y) * 0.25f);
     const Origin origin = find_origin(from, receiver, place);
-    piece[k] = (index * 37u + packet) % count;
+    // A prime strides through all of them, but through no multiple of itself.
+    piece[k] = (index * (count == 37 ? 41u : 37u) + packet) % count;
     const Emitter& emitter = groups.pieces[first + piece[k]];
     const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, b);
     const Vec3 start = origin.point + ray_offset(origin.point) * origin.normal;

@@ -16,8 +16,10 @@ set(DSL_TEST_SOURCES
   dsl/scene/faces.cpp
   dsl/scene/include.cpp
   dsl/scene/language_tables.cpp
+  dsl/scene/power.cpp
   dsl/scene/readmes.cpp
   dsl/scene/settings.cpp
+  dsl/scene/sheets.cpp
   dsl/scene/suspicious.cpp
   dsl/scene/wrong_records.cpp
   dsl/scene/wrong_scenes.cpp

@@ -23,6 +23,7 @@ set(ENGINE_TEST_SOURCES
   engine/transport/gather.cpp
   engine/transport/receivers.cpp
   engine/transport/rows.cpp
+  engine/solve/dark.cpp
   engine/solve/forecast.cpp
   engine/solve/leaks.cpp
   engine/solve/ledger.cpp

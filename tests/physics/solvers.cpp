@@ -31,7 +31,7 @@ FaceTable make_blocked_room() {
 SolverSettings make_plain_settings(uint32_t rays) {
   SolverSettings settings;
   settings.patch_count_max = 800;
-  settings.patch_size = 10;  // lengths, more than the scene has
+  settings.patch_size = 0.1f;  // lengths: larger than patches start unless asked for
   settings.threshold = 1e9f;
   settings.rays = rays;
   return settings;

@@ -238,3 +238,33 @@ TEST_CASE("--version and --help answer on standard output") {
   CHECK(help.out.find("Examples:") != std::string::npos);
   CHECK(help.err.empty());
 }
+
+TEST_CASE("what is legal and dark is told with its reason") {
+  const Folder folder;
+  const auto said = [&](const std::string& scene) {
+    write_bytes(folder / "dark.yaml", scene);
+    const ChildResult result = run_child(render_words(folder / "dark.yaml", folder / "lit"));
+    CHECK(result.exit_code == 0);
+    std::string slugs;
+    for (const std::string& line : split_lines(result.err))
+      for (const char* slug : {"nothing-lit", "lost-lamp", "empty-view"})
+        if (line.find(std::string("warning[") + slug + "]") != std::string::npos)
+          slugs += std::string(slug) + " ";
+    return slugs;
+  };
+  const std::string box = kBoxScene;
+  const auto replaced = [&](std::string scene, const std::string& from, const std::string& to) {
+    scene.replace(scene.find(from), from.size(), to);
+    return scene;
+  };
+  CHECK(said(box) == "");
+  const std::string up = "[[0.2,1,0.8],[0.8,1,0.8],[0.8,1,0.2],[0.2,1,0.2]]";
+  const std::string down = "[[0.2,1,0.2],[0.8,1,0.2],[0.8,1,0.8],[0.2,1,0.8]]";
+  CHECK(said(replaced(box, down, up)) == "nothing-lit ");
+  CHECK(said(replaced(box, "[0.73, 0.73, 0.73]", "0")) == "nothing-lit ");
+  CHECK(said(box + "  - {id: lost, polygon: [[3,1,1],[4,1,1],[4,1,0],[3,1,0]], material: lamp}\n") ==
+        "lost-lamp ");
+  // Of a box that shines, one side is enough.
+  CHECK(said(box + "  - {box: {at: [0.4, 0.4, 0.4], size: [0.1, 0.1, 0.1]}, material: lamp}\n") == "");
+  CHECK(said(box + "camera: {eye: [0.5, 0.5, 3], target: [0.5, 0.5, 9]}\n") == "empty-view ");
+}

@@ -20,15 +20,19 @@ nlohmann::json make_export(const Scene& scene) {
   nlohmann::json faces = nlohmann::json::array();
   for (size_t f = 0; f < scene.faces.size(); ++f) {
     // A ray tracer must not choose between two faces on one place: one of the two goes out.
+    // Of sides of two materials both do, a hair apart.
     const uint32_t twin = scene.faces.twin[f];
-    if (twin != kNone && twin < f) continue;
+    const bool alike = twin != kNone && scene.faces.emission[f] == scene.faces.emission[twin] &&
+                       scene.faces.reflectance[f] == scene.faces.reflectance[twin];
+    if (alike && twin < f) continue;
+    const Vec3 shift = twin != kNone && !alike ? 1e-5f * scene.faces.normal[f] : Vec3(0);
     nlohmann::json corners = nlohmann::json::array();
     for (size_t k = 0; k < scene.faces.corner_count[f]; ++k)
-      corners.push_back(triple(scene.faces.corners[f][k]));
+      corners.push_back(triple(scene.faces.corners[f][k] + shift));
     faces.push_back({{"corners", corners},
                      {"emission", triple(scene.faces.emission[f])},
                      {"reflectance", triple(scene.faces.reflectance[f])},
-                     {"two_sided", twin != kNone}});
+                     {"two_sided", alike}});
   }
   const Camera& camera = scene.cameras.front();
   return {{"faces", faces},

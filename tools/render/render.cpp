@@ -7,6 +7,7 @@
 #include "tools/base/stop.h"
 #include "tools/export/exporters.h"
 #include "tools/export/lit_mesh.h"
+#include "tools/render/dark.h"
 #include "tools/render/pictures.h"
 #include "tools/render/series.h"
 #include "tools/render/solve.h"
@@ -300,6 +301,7 @@ int render(const Options& options, Talk& talk) {
   warn_not_converged(scene, report, made.solution.log.passes, talk);
   warn_not_closed(scene, report, talk);
   warn_budget_reached(scene, report, talk);
+  if (report.stopped_reason != "signal") warn_of_dark(task, made.pictures, made.solution, talk);
   say_diagnostics(talk, describe_leaks(scene, report.health.leaks));
   say_summary(made, task, talk);
   if (!options.json) {

@@ -301,7 +301,8 @@ TEST_CASE("MTL files that are not there leave a default reflectance and a warnin
   };
   const Loaded both = with("mtllib a.mtl\nmtllib b c.mtl\n");
   REQUIRE(both.errors.empty());
-  CHECK(both.warnings.size() == 2);  // the material white is not used; one face lies on the other
+  CHECK(both.warnings.size() == 1);      // the material white is not used
+  CHECK(both.scene.faces.twin[1] == 2);  // two faces back to back
   CHECK(reflectance_of(both, 1) == doctest::Approx(0.5));
   CHECK(reflectance_of(both, 2) == doctest::Approx(0.25));
   const Loaded list = with("mtllib .\\a.mtl nope.mtl\n");
@@ -397,6 +398,23 @@ TEST_CASE("50 k triangles load, each in its place") {
     CHECK(glm::length(first - DVec3(x, 0.01 * ((x * y) % 7), y)) < 1e-5);
   }
   CHECK(mesh_ids(loaded).back() == fmt::format("m.{}", 2 * kSide * kSide - 1));
+}
+
+TEST_CASE("a closed mesh whose faces look inward is told, unless a lamp or a camera is in it") {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  const std::string inward = corners + "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 4 3 7 8\nf 1 4 8 5\nf 6 7 3 2\n";
+  const std::string outward = corners + "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 8 7 3 4\nf 5 8 4 1\nf 2 3 7 6\n";
+  const auto count = [](const std::string& obj, const std::string& more = ", translate: [3, 0, 0]") {
+    const Loaded loaded = load_obj(obj, more);
+    CHECK(loaded.errors.empty());
+    return count_slug(loaded.warnings, "inside-out");
+  };
+  CHECK(count(inward) == 1);
+  CHECK(count(outward) == 0);
+  CHECK(count(inward, ", translate: [3, 0, 0], two_sided: true") == 0);
+  // Open, it may be a room; and with the lamp at (0.5, 1, 0.5) in it, it is one.
+  CHECK(count(inward.substr(0, inward.size() - 10)) == 0);
+  CHECK(count(inward, ", scale: 2, translate: [-0.5, 0, -0.5]") == 0);
 }
 
 }  // namespace

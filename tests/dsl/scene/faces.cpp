@@ -141,12 +141,13 @@ TEST_CASE("subdivide asks for at least n times n patches on the polygon") {
 TEST_CASE("lengths of settings and cameras come in engine lengths") {
   const Loaded loaded =
       load("units: mm\n" + kBase +
-           "  - {quad: {size: [1000,1000]}, material: white, patch_size: 100}\ncamera: {eye: [0,0,2000], "
-           "target: [0,0,0]}\nsolver: {patch_size: 50, patch_size_min: 5}\n");
+           "  - {quad: {size: [1000,1000]}, material: white, patch_size: 100, patch_size_min: 20}\ncamera: "
+           "{eye: [0,0,2000], target: [0,0,0]}\nsolver: {patch_size: 50, patch_size_min: 5}\n");
   REQUIRE(loaded.errors.empty());
   const Scene& scene = loaded.scene;
   CHECK(scene.metres_per_unit == 0.001);
   CHECK(scene.faces.patch_size.back() * scene.units_per_length == doctest::Approx(100));
+  CHECK(scene.faces.patch_size_min.back() * scene.units_per_length == doctest::Approx(20));
   CHECK(scene.solver.patch_size * scene.units_per_length == doctest::Approx(50));
   CHECK(scene.solver.patch_size_min * scene.units_per_length == doctest::Approx(5));
   const DVec3 eye = scene.cameras[0].eye * scene.units_per_length + scene.origin;
@@ -179,14 +180,15 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
   MaterialTable materials;
   materials.reflectance = {DRgb(0.25), DRgb(0.5)};
   materials.emission = {DRgb(0), DRgb(7)};
-  materials.is_heat = {0, 0};
+  materials.is_heat = materials.by_power = {0, 0};
   ObjectTable objects;
   objects.top_ids = {"a", "b"};
   objects.top = {0, 1};
   objects.node = objects.subdivide_node = {0, 0};
   objects.two_sided = {0, 1};
-  objects.is_mesh = {0, 0};
+  objects.is_mesh = objects.is_smooth = objects.is_solid = {0, 0};
   objects.patch_size = {0, 2};
+  objects.patch_size_min = {0, 1};
   objects.subdivide = {4, 1};
   OutlineTable outlines;
   const DVec3 square[] = {DVec3(0, 0, 0), DVec3(0, 0, 8), DVec3(8, 0, 8), DVec3(8, 0, 0)};
@@ -204,6 +206,7 @@ TEST_CASE("outlines become faces without a file: ids, materials, twins and units
   CHECK(scene.faces.emission[2] == Rgb(7));
   CHECK(scene.faces.level_min[0] == 2);
   CHECK(scene.faces.patch_size[1] == 0.25f);
+  CHECK(scene.faces.patch_size_min[1] == 0.125f);
   CHECK(scene.faces.twin[1] == 2);
   CHECK(scene.faces.normal[0] == Vec3(0, 1, 0));
   CHECK(scene.faces.normal[1] == Vec3(0, -1, 0));

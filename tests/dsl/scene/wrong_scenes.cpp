@@ -25,7 +25,7 @@ const std::vector<Borderline> kBorderline = {
      0},
     {"duplicate polygon coplanar",
      kHead + kFloor +
-         "  - {id: floor2, polygon: [[0,0,0],[1,0,0],[1,0,1],[0,0,1]], material: white, subdivide: 4}\n" +
+         "  - {id: floor2, polygon: [[1,0,0],[0,0,0],[0,0,1],[1,0,1]], material: white, subdivide: 4}\n" +
          kLight,
      "coincident", 7, 27},
     {"negative scale", kHead + kLight + "  - {quad: {size: [1,1]}, material: white, scale: [-1,1,1]}\n", "",

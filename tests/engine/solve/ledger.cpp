@@ -4,6 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
+
 using namespace patchlight;
 
 namespace {
@@ -93,4 +96,39 @@ TEST_CASE("ledger: power does not depend on how finely the scene is split") {
   CHECK(emitted[0] == doctest::Approx(emitted[1]).epsilon(1e-6));
   // Each closes within 3e-3 of what was emitted.
   CHECK(std::abs(absorbed[0] - absorbed[1]) <= 2 * 3e-3 * emitted[0]);
+}
+
+TEST_CASE("ledger: it closes with 37 lamps, which are looked at in turn as all other numbers are") {
+  FaceTable faces;
+  add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(0, 0.5f)));
+  add_box_outward(faces, {0.3f, 0.2f, 0.3f}, {0.7f, 0.3f, 0.7f}, make_surface(0, 0.5f));
+  for (int k = 0; k < 37; ++k) {
+    const float x = 0.02f + 0.026f * static_cast<float>(k);
+    add_quad(faces, {x, 0.9f, 0.49f}, {x + 0.02f, 0.9f, 0.49f}, {x + 0.02f, 0.9f, 0.51f}, {x, 0.9f, 0.51f},
+             make_surface(10, 0));
+  }
+  fit_scene(faces);
+  CHECK(find_power_ledger(solve_scene(faces, {}, 1)).closure_error <= 3e-3);
+}
+
+TEST_CASE("ledger: it closes where a lamp dips into two solids that cut each other") {
+  FaceTable faces;
+  add_box_outward(faces, {-1.04f, -1.2f, 1.866f}, {-0.812f, 0.296f, 3.653f}, make_surface(0, 0.5f));
+  const auto first = static_cast<uint32_t>(faces.size());
+  add_box_outward(faces, {-2.741f, -2.136f, -2.332f}, {-1.928f, -0.472f, -0.002f}, make_surface(0, 0.7f));
+  const double angle = -282.4 / 180 * std::numbers::pi;
+  const auto turned = [&](Vec3 p) {
+    const auto sine = static_cast<float>(std::sin(angle)), cosine = static_cast<float>(std::cos(angle));
+    return Vec3(cosine * p.x + sine * p.z, p.y, cosine * p.z - sine * p.x);
+  };
+  for (uint32_t f = first; f < faces.size(); ++f) {
+    for (Vec3& corner : faces.corners[f]) corner = turned(corner);
+    faces.normal[f] = turned(faces.normal[f]);
+  }
+  const Vec3 normal = normalize(Vec3(0.927f, 0.681f, 1.983f)), centre(-1.1f, -0.453f, 1.583f);
+  const Vec3 width = normalize(Vec3(1, 0, 0) - normal * normal.x) / 2.0f, height = cross(normal, width);
+  add_quad(faces, centre - width - height, centre + width - height, centre + width + height,
+           centre - width + height, make_surface(60, 0.05f));
+  fit_scene(faces);
+  CHECK(find_power_ledger(solve_scene(faces, {}, 6)).closure_error <= 3e-3);
 }

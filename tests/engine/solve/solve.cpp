@@ -208,6 +208,58 @@ TEST_CASE("solve: a starting size is kept, by face and for all") {
   }
 }
 
+TEST_CASE("solve: what an author asks for bounds the patches of both meshes") {
+  const FaceTable faces = make_lit_room(10);
+  const float edge = longest_edge(faces.corners[0]);  // of a cube
+  const auto find_smallest = [&](const Solution& run, const PatchTable& leaves, uint32_t face) {
+    float smallest = 1e30f;
+    for (uint32_t row = leaves.face_first[face]; row < leaves.face_first[face + 1]; ++row)
+      smallest = std::min(smallest, longest_edge(cell_corners(run.surfaces->frames, face, leaves.cell[row],
+                                                              leaves.level[row])));
+    return smallest;
+  };
+  SolverSettings settings;
+  SUBCASE("both sizes as large as the walls: a patch a wall") {
+    settings.patch_size = settings.patch_size_min = 2 * edge;
+    const Solution run = solve_scene(faces, settings, 2);
+    CHECK(run.mesh.patches.size() == faces.size());
+    CHECK(run.mesh.elements.size() == faces.size());
+  }
+  SUBCASE("a least size alone") {
+    settings.patch_size_min = 0.3f * edge;
+    const Solution run = solve_scene(faces, settings, 2);
+    for (uint32_t face = 0; face < 6; ++face) {
+      CHECK(find_smallest(run, run.mesh.patches, face) >= 0.15f * edge);
+      CHECK(find_smallest(run, run.mesh.elements, face) >= 0.15f * edge);
+    }
+  }
+  SUBCASE("a least size of one face") {
+    FaceTable coarse = faces;
+    coarse.patch_size_min[1] = 2 * edge;
+    const Solution run = solve_scene(coarse, settings, 2);
+    CHECK(find_smallest(run, run.mesh.patches, 1) == doctest::Approx(edge));
+    CHECK(find_smallest(run, run.mesh.elements, 1) == doctest::Approx(edge));
+    CHECK(find_smallest(run, run.mesh.patches, 0) < 0.2f * edge);
+  }
+  SUBCASE("a starting size: geometry does not split below it, and light does") {
+    settings.patch_size = 0.5f * edge;
+    uint64_t ray_count = 0;
+    const auto surfaces = make_surfaces(faces);
+    const PatchTable start =
+        make_patches(*surfaces, {100000, 1, 1, 0, find_asked_sizes(surfaces->faces, settings)}, ray_count);
+    for (uint32_t row = 0; row < start.face_first[6]; ++row) REQUIRE(start.level[row] == 1);
+    const Solution run = solve_scene(faces, settings, 2);
+    CHECK(run.mesh.patches.size() > start.size());
+  }
+  SUBCASE("no difference is larger than all there is: nothing is split") {
+    settings.patch_size = 0.25f * edge;
+    settings.threshold = settings.threshold_indirect = 1;
+    const Solution run = solve_scene(faces, settings, 2);
+    for (uint32_t row = 0; row < run.mesh.elements.face_first[6]; ++row)
+      REQUIRE(run.mesh.elements.level[row] == 2);
+  }
+}
+
 TEST_CASE("solve: odd scenes are solved without complaint") {
   SolverSettings settings;
   SUBCASE("nothing at all") {

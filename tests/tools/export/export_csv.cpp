@@ -25,6 +25,7 @@ TEST_CASE("a row a patch, in the units of the file, with quoted names") {
   faces.surface = {kNone};
   faces.twin = {kNone};
   faces.patch_size = {0};
+  faces.patch_size_min = {0};
   faces.level_min = {0};
   Solution solution;
   solution.surfaces = make_surfaces(faces);
