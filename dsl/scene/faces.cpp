@@ -135,6 +135,7 @@ DVec3 float_normal(const std::array<Vec3, 4>& corners, DVec3 wanted) {
 
 struct FaceRow {
   std::array<Vec3, 4> corners;
+  std::array<DVec3, 4> fine;  // the same before the origin was taken off, and before rounding
   uint8_t corner_count;
   Vec3 normal;
 };
@@ -155,8 +156,9 @@ void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectan
 
 FaceRow turned_over(const FaceRow& row) {
   const auto& c = row.corners;
-  if (row.corner_count == 3) return {{c[0], c[2], c[1], c[1]}, 3, -row.normal};
-  return {{c[0], c[3], c[2], c[1]}, 4, -row.normal};
+  const auto& f = row.fine;
+  if (row.corner_count == 3) return {{c[0], c[2], c[1], c[1]}, {f[0], f[2], f[1], f[1]}, 3, -row.normal};
+  return {{c[0], c[3], c[2], c[1]}, {f[0], f[3], f[2], f[1]}, 4, -row.normal};
 }
 
 // The faces of polygon p that floats can tell apart from nothing, in engine lengths.
@@ -167,8 +169,9 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
     row.corner_count = is_triangle(table.faces[f]) ? 3 : 4;
     std::array<DVec3, 4> corners;
     for (size_t k = 0; k < 4; ++k) {
-      corners[k] =
-          (table.points[table.point_first[p] + table.faces[f][k]] - scene.origin) / scene.units_per_length;
+      const DVec3 point = table.points[table.point_first[p] + table.faces[f][k]];
+      row.fine[k] = point / scene.units_per_length;
+      corners[k] = (point - scene.origin) / scene.units_per_length;
       row.corners[k] = Vec3(corners[k]);
     }
     // Faces of a polygon that is off plane have normals of their own.
@@ -195,7 +198,7 @@ Vec3 find_first_edge(const OutlineTable& outlines, uint32_t p) {
 
 void add_polygon_faces(const CutTable& table, const MaterialTable& materials, const ObjectTable& objects,
                        const OutlineTable& outlines, const Tree& tree, uint32_t p, std::vector<FaceRow>& rows,
-                       Scene& scene) {
+                       bool fine_corners, Scene& scene) {
   const uint32_t object = outlines.object[p], material = outlines.material[p];
   const bool two_sided = objects.two_sided[object] != 0;
   const auto emission = Rgb(materials.emission[material]);
@@ -208,13 +211,15 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const auto first = static_cast<uint32_t>(scene.faces.size()), count = static_cast<uint32_t>(rows.size());
   for (int side = 0; side < (two_sided ? 2 : 1); ++side) {
     const auto polygon = static_cast<uint32_t>(scene.polygons.size());
-    for (uint32_t k = 0; k < count; ++k)
-      push_face(scene.faces, side == 0 ? rows[k] : turned_over(rows[k]), emission, reflectance, polygon,
-                objects.is_mesh[object] ? object : kNone,
+    for (uint32_t k = 0; k < count; ++k) {
+      const FaceRow row = side == 0 ? rows[k] : turned_over(rows[k]);
+      if (fine_corners) scene.fine_corners.push_back(row.fine);
+      push_face(scene.faces, row, emission, reflectance, polygon, objects.is_mesh[object] ? object : kNone,
                 !two_sided  ? kNone
                 : side == 0 ? first + count + k
                             : first + k,
                 patch_size, level);
+    }
     scene.polygons.id.push_back(outlines.id[p] + (side == 0 ? "" : ".back"));
     scene.polygons.object.push_back(objects.top[object]);
     scene.polygons.line.push_back(line);
@@ -257,7 +262,7 @@ void warn_of_lost(Messages& messages, const Tree& tree, const OutlineTable& outl
 
 void make_faces(Messages& messages, const Tree& tree, const MaterialTable& materials,
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
-                Scene& scene) {
+                Scene& scene, bool fine_corners) {
   Sums sums;
   const CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
   if (messages.error_count > 0 || outlines.size() == 0) return;
@@ -281,7 +286,7 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
   std::vector<FaceRow> rows;
   for (uint32_t p = 0; p < outlines.size(); ++p) {
     const size_t faces_before = scene.faces.size();
-    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, scene);
+    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, fine_corners, scene);
     if (scene.faces.size() == faces_before && table.face_first[p] < table.face_first[p + 1])
       warn_of_lost(messages, tree, outlines, p);
   }
