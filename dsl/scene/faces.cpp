@@ -161,8 +161,10 @@ FaceRow turned_over(const FaceRow& row) {
   return {{c[0], c[3], c[2], c[1]}, {f[0], f[3], f[2], f[1]}, 4, -row.normal};
 }
 
-// The faces of polygon p that floats can tell apart from nothing, in engine lengths.
-void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::vector<FaceRow>& rows) {
+// The faces of polygon p, in engine lengths, that floats can tell apart from nothing; all that doubles can,
+// where `fine_corners` are kept.
+void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, bool fine_corners,
+                   std::vector<FaceRow>& rows) {
   rows.clear();
   for (uint32_t f = table.face_first[p]; f < table.face_first[p + 1]; ++f) {
     FaceRow row;
@@ -181,7 +183,7 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
     const double length = glm::length(exact);
     const DVec3 normal = length > 0 ? exact / length : table.normal[p];
     if (!(glm::dot(normal, table.normal[p]) > 0)) continue;
-    if (float_normal(row.corners, normal) == DVec3(0)) continue;
+    if (!(fine_corners && length > 0) && float_normal(row.corners, normal) == DVec3(0)) continue;
     row.normal = Vec3(normal);
     rows.push_back(row);
   }
@@ -205,7 +207,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const auto reflectance = Rgb(materials.reflectance[material]);
   const auto patch_size = to_patch_size(objects.patch_size[object] / scene.units_per_length);
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
-  convert_faces(table, p, scene, rows);
+  convert_faces(table, p, scene, fine_corners, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());
   const Vec3 first_edge = find_first_edge(outlines, p);
   const auto first = static_cast<uint32_t>(scene.faces.size()), count = static_cast<uint32_t>(rows.size());
