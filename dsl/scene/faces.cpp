@@ -130,6 +130,7 @@ DVec3 float_normal(const std::array<Vec3, 4>& corners, DVec3 wanted) {
 
 struct FaceRow {
   std::array<Vec3, 4> corners;
+  std::array<DVec3, 4> fine;  // the same before the origin was taken off, and before rounding
   uint8_t corner_count;
   Vec3 normal;
   uint8_t sides;
@@ -153,20 +154,25 @@ void push_face(FaceTable& faces, const FaceRow& row, Rgb emission, Rgb reflectan
 
 FaceRow turned_over(const FaceRow& row) {
   const auto& c = row.corners;
-  if (row.corner_count == 3) return {{c[0], c[2], c[1], c[1]}, 3, -row.normal, row.sides, row.sheet};
-  return {{c[0], c[3], c[2], c[1]}, 4, -row.normal, row.sides, row.sheet};
+  const auto& f = row.fine;
+  if (row.corner_count == 3)
+    return {{c[0], c[2], c[1], c[1]}, {f[0], f[2], f[1], f[1]}, 3, -row.normal, row.sides, row.sheet};
+  return {{c[0], c[3], c[2], c[1]}, {f[0], f[3], f[2], f[1]}, 4, -row.normal, row.sides, row.sheet};
 }
 
-// The faces of polygon p that floats can tell apart from nothing, in engine lengths.
-void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::vector<FaceRow>& rows) {
+// The faces of polygon p, in engine lengths, that floats can tell apart from nothing; all that doubles can,
+// where `fine_corners` are kept.
+void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, bool fine_corners,
+                   std::vector<FaceRow>& rows) {
   rows.clear();
   for (uint32_t f = table.face_first[p]; f < table.face_first[p + 1]; ++f) {
     FaceRow row;
     row.corner_count = is_triangle(table.faces[f]) ? 3 : 4;
     std::array<DVec3, 4> corners;
     for (size_t k = 0; k < 4; ++k) {
-      corners[k] =
-          (table.points[table.point_first[p] + table.faces[f][k]] - scene.origin) / scene.units_per_length;
+      const DVec3 point = table.points[table.point_first[p] + table.faces[f][k]];
+      row.fine[k] = point / scene.units_per_length;
+      corners[k] = (point - scene.origin) / scene.units_per_length;
       row.corners[k] = Vec3(corners[k]);
     }
     // Faces of a polygon that is off plane have normals of their own.
@@ -176,7 +182,7 @@ void convert_faces(const CutTable& table, uint32_t p, const Scene& scene, std::v
     const double length = glm::length(exact);
     const DVec3 normal = length > 0 ? exact / length : table.normal[p];
     if (!(glm::dot(normal, table.normal[p]) > 0)) continue;
-    if (float_normal(row.corners, normal) == DVec3(0)) continue;
+    if (!(fine_corners && length > 0) && float_normal(row.corners, normal) == DVec3(0)) continue;
     row.normal = Vec3(normal);
     row.sides = table.sides[f];
     row.sheet = table.sheet[f];
@@ -196,7 +202,7 @@ Vec3 find_first_edge(const OutlineTable& outlines, uint32_t p) {
 // `first_of_sheet`: of each sheet the face that came first.
 void add_polygon_faces(const CutTable& table, const MaterialTable& materials, const ObjectTable& objects,
                        const OutlineTable& outlines, const Tree& tree, uint32_t p, std::vector<FaceRow>& rows,
-                       std::vector<uint32_t>& first_of_sheet, Scene& scene) {
+                       std::vector<uint32_t>& first_of_sheet, bool fine_corners, Scene& scene) {
   const uint32_t object = outlines.object[p], material = outlines.material[p];
   const bool two_sided = objects.two_sided[object] != 0;
   const auto emission = Rgb(materials.emission[material]);
@@ -204,7 +210,7 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
   const auto patch_size = to_patch_size(objects.patch_size[object] / scene.units_per_length);
   const auto patch_size_min = to_patch_size(objects.patch_size_min[object] / scene.units_per_length);
   const uint32_t line = tree.nodes[outlines.ring_node[outlines.polygon_first[p]]].line;
-  convert_faces(table, p, scene, rows);
+  convert_faces(table, p, scene, fine_corners, rows);
   const uint8_t level = rows.empty() ? uint8_t{0} : level_for(objects.subdivide[object], rows.size());
   const Vec3 first_edge = find_first_edge(outlines, p);
   for (FaceRow& row : rows) {
@@ -217,7 +223,9 @@ void add_polygon_faces(const CutTable& table, const MaterialTable& materials, co
     for (const FaceRow& row : rows) {
       if (!(row.sides & (side == 0 ? kFrontSide : kBackSide))) continue;
       const auto face = static_cast<uint32_t>(scene.faces.size());
-      push_face(scene.faces, side == 0 ? row : turned_over(row), emission, reflectance, polygon,
+      const FaceRow turned = side == 0 ? row : turned_over(row);
+      if (fine_corners) scene.fine_corners.push_back(turned.fine);
+      push_face(scene.faces, turned, emission, reflectance, polygon,
                 objects.is_smooth[object] ? object : kNone, patch_size, patch_size_min, level);
       if (row.sheet == kNone) continue;
       uint32_t& first = first_of_sheet[row.sheet];
@@ -278,7 +286,7 @@ void make_sheets(Messages& messages, const Tree& tree, const MaterialTable& mate
 
 void make_faces(Messages& messages, const Tree& tree, const MaterialTable& materials,
                 const ObjectTable& objects, const OutlineTable& outlines, uint64_t start_patches_max,
-                Scene& scene) {
+                Scene& scene, bool fine_corners) {
   Sums sums;
   CutTable table = cut_all(messages, tree, materials, objects, outlines, start_patches_max, sums);
   if (messages.error_count > 0 || outlines.size() == 0) return;
@@ -303,7 +311,8 @@ void make_faces(Messages& messages, const Tree& tree, const MaterialTable& mater
   std::vector<uint32_t> first_of_sheet(table.sheet_count, kNone);
   for (uint32_t p = 0; p < outlines.size(); ++p) {
     const size_t faces_before = scene.faces.size();
-    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, first_of_sheet, scene);
+    add_polygon_faces(table, materials, objects, outlines, tree, p, rows, first_of_sheet, fine_corners,
+                      scene);
     if (scene.faces.size() == faces_before && table.face_first[p] < table.face_first[p + 1])
       warn_of_lost(messages, tree, outlines, p);
   }

@@ -146,7 +146,8 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
   if (!objects.is_full) {
     check_ids(context, objects.objects, objects.outlines);
     make_faces(messages, tree, objects.materials, objects.objects, objects.outlines,
-               std::max(options.limits.starting_patches, scene.solver.patch_count_max), scene);
+               std::max(options.limits.starting_patches, scene.solver.patch_count_max), scene,
+               options.fine_corners);
   }
   throw_errors(messages);
   if (const uint32_t list = value_of(map, "expect").node; list != kNone)

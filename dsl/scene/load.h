@@ -15,6 +15,7 @@ struct LoadOptions {
   std::vector<std::string> definitions;  // "w=8": the value of a variable (-D)
   std::vector<std::string> overrides;    // "solver.passes=4": any value of the file, or a new one (--set)
   Limits limits = {};
+  bool fine_corners = false;  // corners are kept in double precision, too: Scene::fine_corners
 };
 
 // Reads, checks and compiles one scene file, with its includes; `-` reads standard input. Warnings are

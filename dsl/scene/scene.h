@@ -70,6 +70,8 @@ struct Scene {
   std::string file;  // as the user named it; <stdin> for -
   std::string title;
   FaceTable faces;
+  // The corners of all faces as doubles, without `origin` taken off; in lengths; empty unless asked for.
+  std::vector<std::array<DVec3, 4>> fine_corners;
   PolygonTable polygons;
   std::vector<std::string> object_ids;
   bool is_heat = false;         // all materials in use are given by emissivity: one channel, W/m2 of heat

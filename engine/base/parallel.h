@@ -46,6 +46,10 @@ const std::shared_ptr<Workers>& default_workers();
 std::shared_ptr<Workers> current_workers();
 // Have they been asked to stop?
 bool cancel_requested() noexcept;
+// Throws Cancelled where they have: for long work between two rows.
+inline void stop_if_cancelled() {
+  if (cancel_requested()) throw Cancelled{};
+}
 
 // While it lives, loops of this thread run on these workers.
 class WorkersScope {

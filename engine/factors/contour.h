@@ -26,8 +26,13 @@ struct ContourScratch {
 // Lambert's formula integrated over the receiver, turned into a double integral along both outlines by
 // Stokes's theorem: 2 pi A F = sum of ln r dl dl (Sparrow: A New and Simpler Formulation for Radiative Angle
 // Factors, 1963). The inner integral is exact, the outer one adaptive, by Gauss and Kronrod's rules (Kronrod:
-// Nodes and Weights of Quadrature Formulas, 1965).
+// Nodes and Weights of Quadrature Formulas, 1965). Sums of logarithms lose what is small beside what they
+// sum: of outlines very far apart for their sizes the kernel itself is summed, and of an outline very much
+// larger than the other all but the neighbourhood of the other is left to its factor from points.
 double find_exchange_area(std::span<const Segment> a, std::span<const Segment> b, double tolerance,
                           ContourScratch& scratch);
+
+// What rounding may leave of such a sum, lengths squared.
+double find_exchange_rounding(std::span<const Segment> a, std::span<const Segment> b);
 
 }  // namespace patchlight

@@ -1,6 +1,8 @@
 // Stratified pairs of points to rays, rays to sums.
 #include "engine/factors/pair_rays.h"
 
+#include "engine/base/parallel.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -109,9 +111,23 @@ Target find_near_target(SampleScratch& sky, Triangles triangles, DVec3 normal_to
   return {origin + dot(triangles[k][0] - origin, normal_to) / slope * way, cosine * sum};
 }
 
+// The same rays in double precision.
+struct FineEnds {
+  std::array<DVec3, kPacketSize> from, to;
+};
+
+uint32_t find_blocked_fine(const FineRays& fine, const FineEnds& ends, uint32_t active) {
+  uint32_t blocked = 0;
+  for (uint32_t k = 0; k < kPacketSize; ++k)
+    if ((active >> k & 1u) &&
+        is_blocked(fine.tree, fine.faces, fine.parts, fine.part_a, fine.part_b, ends.from[k], ends.to[k]))
+      blocked |= 1u << k;
+  return blocked;
+}
+
 // One sample of a pair. Returns its weight, 1 in the mean; 0: it carries no light, and no ray was made.
-double make_ray(RayPacket& rays, uint32_t lane, const RayPairTable& pairs, size_t pair, double share,
-                std::array<double, 4> point, SampleScratch& scratch) {
+double make_ray(RayPacket& rays, FineEnds& ends, uint32_t lane, const RayPairTable& pairs, size_t pair,
+                double share, std::array<double, 4> point, SampleScratch& scratch) {
   const uint32_t begin = pairs.triangle_first[pair], middle = pairs.triangle_to[pair],
                  end = pairs.triangle_first[pair + 1];
   const auto area_from = std::span(pairs.area_until).subspan(begin, middle - begin);
@@ -125,8 +141,10 @@ double make_ray(RayPacket& rays, uint32_t lane, const RayPairTable& pairs, size_
           ? find_far_target(triangles_to, area_to, normal_to, origin, normal, point[2], point[3])
           : find_near_target(scratch, triangles_to, normal_to, origin, normal, point[2], point[3]);
   if (!(target.weight > 0)) return 0;
-  const Vec3 start = Vec3(origin) + ray_offset(Vec3(origin)) * Vec3(normal);
-  const Vec3 way = Vec3(target.point) + ray_offset(start, Vec3(target.point)) * Vec3(normal_to) - start;
+  ends.from[lane] = origin, ends.to[lane] = target.point;
+  const Vec3 from(origin - pairs.shift), to(target.point - pairs.shift);
+  const Vec3 start = from + (ray_offset(from) + pairs.off_plane) * Vec3(normal);
+  const Vec3 way = to + (ray_offset(start, to) + pairs.off_plane) * Vec3(normal_to) - start;
   rays.origin_x[lane] = start.x, rays.origin_y[lane] = start.y, rays.origin_z[lane] = start.z;
   rays.direction_x[lane] = way.x, rays.direction_y[lane] = way.y, rays.direction_z[lane] = way.z;
   rays.near_distance[lane] = 0, rays.far_distance[lane] = 1;
@@ -158,6 +176,7 @@ void sort_points(SampleScratch& scratch, const Sobol& sobol, uint32_t first, uin
 // Casts the points of the scratch and adds them up.
 void cast_points(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer, SampleScratch& scratch) {
   RayPacket rays;
+  FineEnds ends;
   std::array<double, kPacketSize> weight{};
   size_t pair = 0;
   const double exchange = pairs.exchange_until.back();
@@ -170,11 +189,12 @@ void cast_points(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer
       // What is left of the number within the pair is uniform again.
       const double before = pair == 0 ? 0 : pairs.exchange_until[pair - 1];
       const double share = std::clamp((at - before) * pairs.exchange_inverse[pair], 0.0, 1 - 0x1p-53);
-      weight[k] = make_ray(rays, k, pairs, pair, share, point, scratch);
+      weight[k] = make_ray(rays, ends, k, pairs, pair, share, point, scratch);
       active |= (weight[k] > 0 ? 1u : 0u) << k;
     }
     if (active == 0) continue;
-    const uint32_t blocked = find_blocked(tracer, rays, active, RayOrder::kIncoherent);
+    const uint32_t blocked = pairs.fine ? find_blocked_fine(*pairs.fine, ends, active)
+                                        : find_blocked(tracer, rays, active, RayOrder::kIncoherent);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       if (!(active >> k & 1u)) continue;
       const uint32_t block = scratch.block[first + k];
@@ -211,6 +231,7 @@ void clear_pairs(RayPairTable& pairs) {
   pairs.normal_from.clear(), pairs.normal_to.clear();
   pairs.triangle_first.assign(1, 0), pairs.triangle_to.clear(), pairs.far.clear();
   pairs.triangle.clear(), pairs.area_until.clear();
+  pairs.off_plane = 0, pairs.shift = DVec3(0), pairs.fine = nullptr;
 }
 
 void add_pair(RayPairTable& pairs, std::span<const DVec3> from, DVec3 normal_from, std::span<const DVec3> to,
@@ -244,6 +265,7 @@ void add_samples(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer
   uint32_t first = sums.sample_count();
   const uint32_t added = std::max(kPacketSize, sums.block_size * (kBlocksMin / 4)), end = first + added;
   for (const uint32_t count = std::min(added, kPointsSorted); first < end; first += count) {
+    stop_if_cancelled();
     sort_points(scratch, sobol, first, count, sums.block_size);
     cast_points(sums, pairs, tracer, scratch);
   }

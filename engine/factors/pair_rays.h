@@ -2,12 +2,21 @@
 #pragma once
 
 #include "engine/base/sobol.h"
+#include "engine/factors/shaft.h"
 #include "engine/trace/tracer.h"
 
 #include <span>
 #include <vector>
 
 namespace patchlight {
+
+// Where rays of double precision are asked for: the scene, and the two parts that all pairs are of.
+struct FineRays {
+  const Bvh& tree;
+  const FaceTable& faces;
+  const PartTable& parts;
+  uint32_t part_a, part_b;
+};
 
 // Pairs of convex polygons that are sampled together, each in proportion to its exchange.
 struct RayPairTable {
@@ -19,6 +28,11 @@ struct RayPairTable {
   std::vector<uint8_t> far;              // 1: far apart for their size
   std::vector<std::array<DVec3, 3>> triangle;
   std::vector<double> area_until;  // a row a triangle: of the triangles of its polygon up to it
+  // Lengths: how much further than others its rays stay away from what they leave and from what they end at,
+  // whose corners may lie off one plane.
+  float off_plane = 0;
+  DVec3 shift{0};                  // PartTable::shift
+  const FineRays* fine = nullptr;  // rays of single precision, unless it is set
   size_t size() const { return exchange_until.size(); }
 };
 void clear_pairs(RayPairTable& pairs);

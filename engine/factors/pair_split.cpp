@@ -1,6 +1,8 @@
 // Halving of the pairs in doubt.
 #include "engine/factors/pair_split.h"
 
+#include "engine/base/parallel.h"
+
 #include <algorithm>
 
 namespace patchlight {
@@ -57,7 +59,7 @@ void pick_blocker(Job& job, SubPair& pair) {
   for (size_t k = 0; k < job.blockers.count; ++k) {
     const uint32_t face = job.blockers.face[k];
     const DVec3 normal(job.faces.normal[face]);
-    const HalfSpace plane{normal, dot(normal, DVec3(job.faces.corners[face][0]))};
+    const HalfSpace plane{normal, dot(normal, job.parts.face_corners[face][0])};
     const double cut_a = find_cut(corners_a(job.split, pair), plane);
     const double cut_b = find_cut(corners_b(job.split, pair), plane);
     if (cut_a < kUncut && cut_b > best) best = cut_b, pair.blocker = face, pair.cuts_a = 0;
@@ -116,6 +118,7 @@ void add_pieces(Job& job) {
         static_cast<uint32_t>(clip_polygon(corners, piece_corners(parts, a), parts.front[job.part_b]));
     if (count_a < 3) continue;
     for (uint32_t b = parts.piece_first[job.part_b]; b < parts.piece_first[job.part_b + 1]; ++b) {
+      stop_if_cancelled();
       SubPair pair{0, first_a, count_a, static_cast<uint32_t>(corners.size()), 0, kNone, 0};
       pair.count_b =
           static_cast<uint32_t>(clip_polygon(corners, piece_corners(parts, b), parts.front[job.part_a]));
@@ -171,7 +174,7 @@ void split_largest(Job& job) {
   bool of_a = pair.cuts_a;
   if (pair.blocker != kNone) {
     plane.normal = DVec3(job.faces.normal[pair.blocker]);
-    plane.height = dot(plane.normal, DVec3(job.faces.corners[pair.blocker][0]));
+    plane.height = dot(plane.normal, job.parts.face_corners[pair.blocker][0]);
   } else {
     const Extent a = find_extent(corners_a(job.split, pair)), b = find_extent(corners_b(job.split, pair));
     of_a = a.high - a.low >= b.high - b.low;
@@ -201,6 +204,7 @@ void split_pair(SplitPair& split, const Bvh& tree, const FaceTable& faces, const
   if (forecast_samples(exchange, error) < kSamplesPerSplit && add_whole(job, exchange)) return;
   add_pieces(job);
   for (size_t splits = 0; splits < kSplitsMax && !split.sub_pairs.empty(); ++splits) {
+    stop_if_cancelled();
     const double samples = forecast_samples(split.mixed, error);
     if (samples * split.sub_pairs.front().exchange < kSamplesPerSplit * split.mixed) break;
     split_largest(job);

@@ -1,6 +1,8 @@
 // Faces joined to planar parts: outlines without seams, few convex pieces, a hull.
 #include "engine/factors/parts.h"
 
+#include "engine/base/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,9 +11,16 @@
 namespace patchlight {
 namespace {
 
-// A polygon whose corners lie no further off one plane than this share of its size is flat: the loader takes
-// such polygons as flat, too.
-constexpr double kFlat = 1.5e-4;
+// A polygon whose corners lie no further off one plane than this share of its size is flat: the loader leaves
+// quads whole up to there, too.
+constexpr double kFlat = 2e-6;
+// How far from a plane a point may be, as a share of its coordinates, and still lie in it: a few units in the
+// last place of floats; of doubles, after turns and moves.
+constexpr double kTouchFloat = 1e-6;
+constexpr double kTouchFine = 4e-15;
+// Coordinates below this one, in lengths, count as this one where they are floats: rays go by floats, and
+// start so far from where they are made.
+constexpr double kFloatCoordinateMin = 0.25;
 // Sine of the turn up to which an edge goes on straight.
 constexpr double kStraight = 1e-6;
 
@@ -23,19 +32,19 @@ struct Corners {
   std::vector<Ring> rings;  // a row a face
 };
 
-Corners number_corners(const FaceTable& faces, uint32_t first, uint32_t last) {
+Corners number_corners(const FaceTable& faces, const PartTable& parts, uint32_t first, uint32_t last) {
   Corners corners;
   const auto is_before = [](const DVec3& a, const DVec3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
   };
   for (uint32_t face = first; face < last; ++face)
-    for (int k = 0; k < faces.corner_count[face]; ++k) corners.points.emplace_back(faces.corners[face][k]);
+    for (int k = 0; k < faces.corner_count[face]; ++k) corners.points.push_back(parts.face_corners[face][k]);
   std::sort(corners.points.begin(), corners.points.end(), is_before);
   corners.points.erase(std::unique(corners.points.begin(), corners.points.end()), corners.points.end());
   for (uint32_t face = first; face < last; ++face) {
     Ring& ring = corners.rings.emplace_back();
     for (int k = 0; k < faces.corner_count[face]; ++k) {
-      const DVec3 p(faces.corners[face][k]);
+      const DVec3 p = parts.face_corners[face][k];
       const auto at = std::lower_bound(corners.points.begin(), corners.points.end(), p, is_before);
       const auto index = static_cast<uint32_t>(at - corners.points.begin());
       if (ring.empty() || (ring.back() != index && ring.front() != index)) ring.push_back(index);
@@ -141,6 +150,7 @@ void join_convex(std::vector<Ring>& rings, const std::vector<DVec3>& points, DVe
         const auto other = owner.find(edge_key(b, a));
         if (other == owner.end() || other->second == r) continue;
         const uint32_t s = other->second;
+        stop_if_cancelled();
         Ring joined = join_rings(rings[r], rings[s], a, b);
         drop_straight_corners(joined, points, normal);
         if (!is_convex(joined, points, normal)) continue;
@@ -154,10 +164,14 @@ void join_convex(std::vector<Ring>& rings, const std::vector<DVec3>& points, DVe
   std::erase_if(rings, [](const Ring& ring) { return ring.empty(); });
 }
 
-void push_hull(PartTable& parts, std::span<const Segment> outline, size_t piece_count, DVec3 normal) {
+void push_hull(PartTable& parts, std::span<const Segment> outline, size_t piece_count,
+               const HalfSpace& front) {
   std::vector<DVec3> points, hull;
   for (const Segment& segment : outline) points.push_back(segment.start);
-  set_hull(hull, points, piece_count == 1, normal);
+  set_hull(hull, points, piece_count == 1, front.normal);
+  // A rectangle around them lies in the plane, however far its first corner is off it.
+  if (piece_count != 1 || points.size() > kHullCornersMax)
+    for (DVec3& p : hull) p -= height_above(front, p) * front.normal;
   parts.hull.insert(parts.hull.end(), hull.begin(), hull.end());
   parts.convex.push_back(piece_count == 1 && points.size() <= kHullCornersMax);
   parts.hull_first.push_back(static_cast<uint32_t>(parts.hull.size()));
@@ -169,21 +183,21 @@ struct Plane {
 };
 
 // The mean plane of some faces.
-Plane find_plane(const FaceTable& faces, uint32_t first, uint32_t last) {
+Plane find_plane(const FaceTable& faces, const PartTable& parts, uint32_t first, uint32_t last) {
   Plane plane{};
   DVec3 normal(0), low(1e300), high(-1e300);
   for (uint32_t face = first; face < last; ++face) {
-    const auto& c = faces.corners[face];
-    const DVec3 across = 0.5 * cross(DVec3(c[2]) - DVec3(c[0]), DVec3(c[3]) - DVec3(c[1]));
+    const auto& c = parts.face_corners[face];
+    const DVec3 across = 0.5 * cross(c[2] - c[0], c[3] - c[1]);
     normal += across, plane.area += length(across);
-    for (const Vec3& p : c) low = min(low, DVec3(p)), high = max(high, DVec3(p));
+    for (const DVec3& p : c) low = min(low, p), high = max(high, p);
   }
   plane.normal = dot(normal, normal) > 0 ? normalize(normal) : DVec3(faces.normal[first]);
   plane.centre = 0.5 * (low + high);
   double height_min = 1e300, height_max = -1e300;
   for (uint32_t face = first; face < last; ++face)
-    for (const Vec3& p : faces.corners[face]) {
-      const DVec3 way = DVec3(p) - plane.centre;
+    for (const DVec3& p : parts.face_corners[face]) {
+      const DVec3 way = p - plane.centre;
       plane.radius = std::max(plane.radius, length(way));
       height_min = std::min(height_min, dot(way, plane.normal));
       height_max = std::max(height_max, dot(way, plane.normal));
@@ -194,8 +208,18 @@ Plane find_plane(const FaceTable& faces, uint32_t first, uint32_t last) {
   return plane;
 }
 
-void push_part(PartTable& parts, const FaceTable& faces, uint32_t first, uint32_t last, const Plane& plane) {
-  Corners corners = number_corners(faces, first, last);
+void push_rounding(PartTable& parts, std::span<const DVec3> points, const FineCorners& fine) {
+  double most = 0;
+  for (const DVec3& p : points) most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const bool is_fine = !fine.corners.empty();
+  const double touch = is_fine ? kTouchFine * most : kTouchFloat * std::max(most, kFloatCoordinateMin);
+  parts.touch.push_back(touch + parts.off_plane.back());
+  parts.rounding.push_back(is_fine ? 0x1p-53 * most : 0);
+}
+
+void push_part(PartTable& parts, const FaceTable& faces, const FineCorners& fine, uint32_t first,
+               uint32_t last, const Plane& plane) {
+  Corners corners = number_corners(faces, parts, first, last);
   const std::vector<Segment> outline = find_outline(corners, plane.normal);
   if (corners.rings.size() > 1) join_convex(corners.rings, corners.points, plane.normal);
   parts.polygon.push_back(faces.polygon[first]);
@@ -203,9 +227,11 @@ void push_part(PartTable& parts, const FaceTable& faces, uint32_t first, uint32_
   parts.area.push_back(plane.area);
   parts.centre.push_back(plane.centre);
   parts.radius.push_back(plane.radius + plane.off_plane);
+  parts.off_plane.push_back(plane.off_plane);
+  push_rounding(parts, corners.points, fine);
   parts.outline.insert(parts.outline.end(), outline.begin(), outline.end());
   parts.outline_first.push_back(static_cast<uint32_t>(parts.outline.size()));
-  push_hull(parts, outline, corners.rings.size(), plane.normal);
+  push_hull(parts, outline, corners.rings.size(), parts.front.back());
   for (const Ring& ring : corners.rings) {
     for (const uint32_t k : ring) parts.piece_corner.push_back(corners.points[k]);
     parts.piece_corner_first.push_back(static_cast<uint32_t>(parts.piece_corner.size()));
@@ -229,6 +255,7 @@ void set_hull(std::vector<DVec3>& hull, std::span<const DVec3> points, bool conv
     const DVec3 step = points[(k + 1) % points.size()] - points[k];
     if (dot(step, step) > dot(side, side)) side = step;
   }
+  side -= dot(side, normal) * normal;
   const DVec3 base = points[0], u = normalize(side), v = cross(normal, u);
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;
   for (const DVec3& point : points) {
@@ -240,24 +267,29 @@ void set_hull(std::vector<DVec3>& hull, std::span<const DVec3> points, bool conv
           base + u_min * u + v_max * v};
 }
 
-PartTable make_parts(const FaceTable& faces, size_t polygon_count) {
+PartTable make_parts(const FaceTable& faces, size_t polygon_count, const FineCorners& fine) {
   assert(std::is_sorted(faces.polygon.begin(), faces.polygon.end()));
   PartTable parts;
   parts.part_of_face.resize(faces.size());
+  parts.face_corners = fine.corners, parts.shift = fine.shift;
+  if (fine.corners.empty())
+    for (const auto& c : faces.corners)
+      parts.face_corners.push_back({DVec3(c[0]), DVec3(c[1]), DVec3(c[2]), DVec3(c[3])});
   for (auto* first : {&parts.outline_first, &parts.hull_first, &parts.piece_first, &parts.piece_corner_first,
                       &parts.polygon_first})
     first->assign(1, 0);
   uint32_t face = 0;
   for (uint32_t polygon = 0; polygon < polygon_count; ++polygon) {
+    stop_if_cancelled();
     const uint32_t first = face;
     while (face < faces.size() && faces.polygon[face] == polygon) ++face;
     if (first < face) {
-      const Plane plane = find_plane(faces, first, face);
+      const Plane plane = find_plane(faces, parts, first, face);
       if (face - first == 1 || plane.off_plane <= kFlat * 2 * plane.radius)
-        push_part(parts, faces, first, face, plane);
+        push_part(parts, faces, fine, first, face, plane);
       else
         for (uint32_t f = first; f < face; ++f)
-          push_part(parts, faces, f, f + 1, find_plane(faces, f, f + 1));
+          push_part(parts, faces, fine, f, f + 1, find_plane(faces, parts, f, f + 1));
     }
     parts.polygon_first.push_back(static_cast<uint32_t>(parts.size()));
   }

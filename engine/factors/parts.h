@@ -6,14 +6,25 @@
 
 namespace patchlight {
 
-// A flat polygon is one part, however many faces it was cut into; of one that is not flat each face is a
-// part. Lists of variable length are CSR: the row of part p is [first[p], first[p + 1]).
+// Corners as the scene has them, before they were rounded to the floats of the table of faces: a plate and
+// the gap beside it may be a millionth of a millionth of the scene.
+struct FineCorners {
+  std::vector<std::array<DVec3, 4>> corners;  // a row a face, lengths; empty: floats are all there is
+  DVec3 shift{0};  // what the table of faces takes off them: to take it off loses digits
+};
+
+// A flat polygon is one part, however many faces it was cut into; of one that is not flat, be it by little,
+// each face is a part: rays meet the faces, and points of another plane would lie behind them. Lists of
+// variable length are CSR: the row of part p is [first[p], first[p + 1]).
 struct PartTable {
   std::vector<uint32_t> polygon;
   std::vector<HalfSpace> front;  // what lies before its lit side
   std::vector<double> area;      // lengths squared
   std::vector<DVec3> centre;     // of a ball that holds it
   std::vector<double> radius;
+  std::vector<double> off_plane;  // lengths: how far its corners lie off the plane of `front`
+  std::vector<double> touch;      // lengths: surfaces no further from it than this touch it
+  std::vector<double> rounding;   // lengths: what its fine corners may be off; floats are taken as they are
   std::vector<uint32_t> outline_first;
   std::vector<Segment> outline;  // all rings, holes too; without the seams between its faces
   std::vector<uint32_t> hull_first;
@@ -22,14 +33,16 @@ struct PartTable {
   std::vector<uint32_t> piece_first;  // convex pieces that cover it
   std::vector<uint32_t> piece_corner_first;  // a row a piece
   std::vector<DVec3> piece_corner;
-  std::vector<uint32_t> part_of_face;   // a row a face
+  std::vector<uint32_t> part_of_face;              // a row a face
+  std::vector<std::array<DVec3, 4>> face_corners;  // a row a face
+  DVec3 shift{0};                       // lengths: all places here less this are those of the table of faces
   std::vector<uint32_t> polygon_first;  // polygons + 1: the parts of each
   size_t size() const { return polygon.size(); }
 };
 constexpr size_t kHullCornersMax = 8;
 
 // `polygon_count` may count polygons that have no faces.
-PartTable make_parts(const FaceTable& faces, size_t polygon_count);
+PartTable make_parts(const FaceTable& faces, size_t polygon_count, const FineCorners& fine = {});
 
 inline std::span<const Segment> part_outline(const PartTable& parts, uint32_t part) {
   return std::span(parts.outline)
@@ -48,11 +61,5 @@ inline std::span<const DVec3> piece_corners(const PartTable& parts, uint32_t pie
 // A convex polygon with at most kHullCornersMax corners, in the plane of `normal`, that holds some points of
 // it (at least three that differ): `points` themselves where they are the corners of such a polygon already.
 void set_hull(std::vector<DVec3>& hull, std::span<const DVec3> points, bool convex, DVec3 normal);
-
-// How far from a plane a point may be, in lengths, and still lie in it: a few units in the last place of
-// float corners near it. Surfaces that are no further apart than this touch.
-inline double touch_distance(DVec3 p) {
-  return 1e-6 * std::max({0.25, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
 
 }  // namespace patchlight

@@ -15,27 +15,29 @@ constexpr size_t kSidesMax = 40;
 constexpr uint32_t kTriedMax = 16;
 // The slack of a shaft is at most this share of its narrower end.
 constexpr double kSlackOfEnd = 0.005;
+// Of a ray's way, and of a triangle's sides: what rounding may leave.
+constexpr double kRayRounding = 1e-10;
 
-uint32_t make_node(Bvh& tree, const FaceTable& faces, const std::vector<Vec3>& centre, uint32_t first,
+uint32_t make_node(Bvh& tree, const PartTable& parts, const std::vector<DVec3>& centre, uint32_t first,
                    uint32_t last) {
   const auto node = static_cast<uint32_t>(tree.first.size());
-  Vec3 low(1e30f), high(-1e30f), centre_low(1e30f), centre_high(-1e30f);
+  DVec3 low(1e300), high(-1e300), centre_low(1e300), centre_high(-1e300);
   for (uint32_t k = first; k < last; ++k) {
-    for (const Vec3& p : faces.corners[tree.face[k]]) low = min(low, p), high = max(high, p);
+    for (const DVec3& p : parts.face_corners[tree.face[k]]) low = min(low, p), high = max(high, p);
     centre_low = min(centre_low, centre[tree.face[k]]), centre_high = max(centre_high, centre[tree.face[k]]);
   }
   tree.low.push_back(low), tree.high.push_back(high);
   tree.first.push_back(first), tree.count.push_back(last - first), tree.second.push_back(kNone);
   if (last - first <= kFacesPerLeaf) return node;
-  const Vec3 size = centre_high - centre_low;
+  const DVec3 size = centre_high - centre_low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const uint32_t middle = (first + last) / 2;
   const auto at = [&](uint32_t k) { return tree.face.begin() + k; };
   std::nth_element(at(first), at(middle), at(last), [&](uint32_t a, uint32_t b) {
     return centre[a][axis] != centre[b][axis] ? centre[a][axis] < centre[b][axis] : a < b;
   });
-  make_node(tree, faces, centre, first, middle);
-  const uint32_t second = make_node(tree, faces, centre, middle, last);
+  make_node(tree, parts, centre, first, middle);
+  const uint32_t second = make_node(tree, parts, centre, middle, last);
   tree.second[node] = second;
   return node;
 }
@@ -43,6 +45,8 @@ uint32_t make_node(Bvh& tree, const FaceTable& faces, const std::vector<Vec3>& c
 // The hull of two convex polygons, shrunk by the slack: points with dot(normal, p) >= height for all sides.
 struct Shaft {
   DVec3 low, high;
+  double size;      // of the box, lengths
+  double rounding;  // of heights, lengths
   std::array<HalfSpace, kSidesMax> sides;
   size_t side_count = 0;
 };
@@ -50,7 +54,8 @@ struct Shaft {
 void add_side(Shaft& shaft, DVec3 normal, double height) {
   // Two parallel edges give the same plane four times.
   for (size_t k = 0; k < shaft.side_count; ++k)
-    if (dot(shaft.sides[k].normal, normal) > 1 - 1e-14 && std::abs(shaft.sides[k].height - height) < 1e-12)
+    if (dot(shaft.sides[k].normal, normal) > 1 - 1e-14 &&
+        std::abs(shaft.sides[k].height - height) < 1e-12 * shaft.size)
       return;
   if (shaft.side_count < kSidesMax) shaft.sides[shaft.side_count++] = {normal, height};
 }
@@ -66,7 +71,7 @@ void add_sides(Shaft& shaft, std::span<const DVec3> edges_of, std::span<const DV
       if (size <= 1e-9 * std::sqrt(dot(edge, edge) * dot(corner - a, corner - a))) continue;
       normal /= size;
       double least = 0, most = 0;
-      const double bound = 1e-12 * (std::abs(dot(normal, a)) + 1);
+      const double bound = 1e-12 * shaft.size + shaft.rounding;
       for (const auto& points : {edges_of, corners_of})
         for (const DVec3& p : points) {
           const double height = dot(normal, p - a);
@@ -92,17 +97,15 @@ double find_width(std::span<const DVec3> corners) {
 }
 
 // Where rounding may have moved the corners of what only touches the shaft.
-double find_slack(const ShaftEnd& a, const ShaftEnd& b) {
-  double touch = 0;
-  for (const auto* end : {&a, &b})
-    for (const DVec3& p : end->hull) touch = std::max(touch, 0.5 * touch_distance(p));
+double find_slack(const PartTable& parts, const ShaftEnd& a, const ShaftEnd& b) {
+  const double touch = 0.5 * std::max(parts.touch[a.part], parts.touch[b.part]);
   return std::min(touch, kSlackOfEnd * std::min(find_width(a.hull), find_width(b.hull)));
 }
 
-bool is_outside(const Shaft& shaft, Vec3 low, Vec3 high) {
+bool is_outside(const Shaft& shaft, DVec3 low, DVec3 high) {
   for (int axis = 0; axis < 3; ++axis)
     if (low[axis] > shaft.high[axis] || high[axis] < shaft.low[axis]) return true;
-  const DVec3 middle = 0.5 * (DVec3(low) + DVec3(high)), half = 0.5 * (DVec3(high) - DVec3(low));
+  const DVec3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
   for (size_t k = 0; k < shaft.side_count; ++k) {
     const auto& [normal, height] = shaft.sides[k];
     if (dot(normal, middle) + dot(abs(normal), half) < height) return true;
@@ -110,16 +113,17 @@ bool is_outside(const Shaft& shaft, Vec3 low, Vec3 high) {
   return false;
 }
 
-// Is anything of the face left when it is clipped at all sides?
-bool reaches_into(const Shaft& shaft, const FaceTable& faces, uint32_t face) {
+// Is anything of the face left when it is clipped at all sides? Its corners may lie off its plane by `slack`.
+bool reaches_into(const Shaft& shaft, const FaceTable& faces, const PartTable& parts, uint32_t face) {
+  const double slack = parts.off_plane[parts.part_of_face[face]];
   std::array<DVec3, 4 + kSidesMax> corners, kept;
   std::array<double, 4 + kSidesMax> height;
   size_t count = faces.corner_count[face];
-  for (size_t k = 0; k < count; ++k) corners[k] = DVec3(faces.corners[face][k]);
+  for (size_t k = 0; k < count; ++k) corners[k] = parts.face_corners[face][k];
   for (size_t side = 0; side < shaft.side_count; ++side) {
     size_t inside = 0;
     for (size_t k = 0; k < count; ++k)
-      inside += (height[k] = height_above(shaft.sides[side], corners[k])) >= 0;
+      inside += (height[k] = height_above(shaft.sides[side], corners[k]) - slack) >= 0;
     if (inside == 0) return false;
     if (inside == count) continue;
     size_t kept_count = 0;
@@ -165,16 +169,46 @@ bool hides(const PartTable& parts, uint32_t part, const ShaftEnd& a, const Shaft
   return true;
 }
 
+// Does the line from `from` by `way` pass beside a box? A share of the way is added for rounding.
+bool misses_box(DVec3 low, DVec3 high, DVec3 from, DVec3 way) {
+  double first = 0, last = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0) {
+      if (from[axis] < low[axis] || from[axis] > high[axis]) return true;
+      continue;
+    }
+    const double a = (low[axis] - from[axis]) / way[axis], b = (high[axis] - from[axis]) / way[axis];
+    first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+  }
+  return first > last + kRayRounding;
+}
+
+// Does the triangle cross the way between its ends? Both of its borders and its corners count as it. (Moller,
+// Trumbore: Fast, Minimum Storage Ray/Triangle Intersection, 1997.)
+bool crosses_triangle(DVec3 a, DVec3 b, DVec3 c, DVec3 from, DVec3 way) {
+  const DVec3 side = b - a, other = c - a, start = from - a;
+  const DVec3 across = cross(way, other);
+  const double volume = dot(side, across);
+  if (volume == 0) return false;
+  const double u = dot(start, across) / volume;
+  if (u < -kRayRounding || u > 1 + kRayRounding) return false;
+  const DVec3 turned = cross(start, side);
+  const double v = dot(way, turned) / volume;
+  if (v < -kRayRounding || u + v > 1 + kRayRounding) return false;
+  const double t = dot(other, turned) / volume;
+  return t > kRayRounding && t < 1 - kRayRounding;
+}
+
 }  // namespace
 
-Bvh make_bvh(const FaceTable& faces) {
+Bvh make_bvh(const FaceTable& faces, const PartTable& parts) {
   Bvh tree;
-  std::vector<Vec3> centre(faces.size());
+  std::vector<DVec3> centre(faces.size());
   for (uint32_t face = 0; face < faces.size(); ++face) {
-    for (const Vec3& p : faces.corners[face]) centre[face] += 0.25f * p;
+    for (const DVec3& p : parts.face_corners[face]) centre[face] += 0.25 * p;
     if (faces.twin[face] == kNone || faces.twin[face] > face) tree.face.push_back(face);
   }
-  if (!tree.face.empty()) make_node(tree, faces, centre, 0, static_cast<uint32_t>(tree.face.size()));
+  if (!tree.face.empty()) make_node(tree, parts, centre, 0, static_cast<uint32_t>(tree.face.size()));
   return tree;
 }
 
@@ -184,11 +218,14 @@ Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, co
   assert(a.hull.size() <= 2 * kHullCornersMax);
   assert(b.hull.size() <= 2 * kHullCornersMax);
   if (a.hull.size() < 3 || b.hull.size() < 3 || tree.face.empty()) return Sight::kClear;
-  const double slack = find_slack(a, b);
+  const double slack = find_slack(parts, a, b);
   Shaft shaft;
   shaft.low = DVec3(1e300), shaft.high = DVec3(-1e300);
   for (const auto* end : {&a, &b})
     for (const DVec3& p : end->hull) shaft.low = min(shaft.low, p), shaft.high = max(shaft.high, p);
+  const DVec3 most = max(abs(shaft.low), abs(shaft.high));
+  shaft.size = length(shaft.high - shaft.low);
+  shaft.rounding = 1e-15 * std::max({most.x, most.y, most.z});
   shaft.low += slack, shaft.high -= slack;
   for (const auto* end : {&a, &b})
     add_side(shaft, parts.front[end->part].normal, parts.front[end->part].height + slack);
@@ -216,9 +253,14 @@ Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, co
     for (uint32_t k = tree.first[node]; k < tree.first[node] + tree.count[node]; ++k) {
       const uint32_t face = tree.face[k], part = parts.part_of_face[face];
       if (part == a.part || part == b.part) continue;
+      // What stands for the back of one of the two is in its place.
+      if (const uint32_t twin = faces.twin[face]; twin != kNone) {
+        const uint32_t back = parts.part_of_face[twin];
+        if (back == a.part || back == b.part) continue;
+      }
       if (sight == Sight::kMixed && (part == part_last || !parts.convex[part])) continue;
       if (sight == Sight::kMixed && ++tried > kTriedMax) return sight;
-      if (!reaches_into(shaft, faces, face)) continue;
+      if (!reaches_into(shaft, faces, parts, face)) continue;
       sight = Sight::kMixed;
       if (blockers.count < blockers.face.size()) blockers.face[blockers.count++] = face;
       if (part == part_last || !parts.convex[part]) continue;
@@ -227,6 +269,36 @@ Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, co
     }
   }
   return sight;
+}
+
+bool is_blocked(const Bvh& tree, const FaceTable& faces, const PartTable& parts, uint32_t part_a,
+                uint32_t part_b, DVec3 from, DVec3 to) {
+  if (tree.face.empty()) return false;
+  const DVec3 way = to - from;
+  std::array<uint32_t, 64> stack;
+  size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const uint32_t node = stack[--depth];
+    if (misses_box(tree.low[node], tree.high[node], from, way)) continue;
+    if (tree.second[node] != kNone) {
+      assert(depth + 2 <= stack.size());
+      stack[depth++] = tree.second[node], stack[depth++] = node + 1;
+      continue;
+    }
+    for (uint32_t k = tree.first[node]; k < tree.first[node] + tree.count[node]; ++k) {
+      const uint32_t face = tree.face[k], part = parts.part_of_face[face];
+      if (part == part_a || part == part_b) continue;
+      if (const uint32_t twin = faces.twin[face]; twin != kNone) {
+        const uint32_t back = parts.part_of_face[twin];
+        if (back == part_a || back == part_b) continue;
+      }
+      const auto& c = parts.face_corners[face];
+      if (crosses_triangle(c[0], c[1], faces.corner_count[face] == 3 ? c[2] : c[3], from, way)) return true;
+      if (faces.corner_count[face] == 4 && crosses_triangle(c[1], c[2], c[3], from, way)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace patchlight

@@ -9,14 +9,14 @@ namespace patchlight {
 
 // Boxes around faces, boxes around boxes: a node's first child follows it, its second is at `second`.
 struct Bvh {
-  std::vector<Vec3> low, high;   // lengths
+  std::vector<DVec3> low, high;  // lengths
   std::vector<uint32_t> second;  // kNone: a leaf
   std::vector<uint32_t> first;   // a leaf holds the entries [first, first + count) of face
   std::vector<uint32_t> count;
   std::vector<uint32_t> face;
 };
 // Of two faces back to back it holds one.
-Bvh make_bvh(const FaceTable& faces);
+Bvh make_bvh(const FaceTable& faces, const PartTable& parts);
 
 enum class Sight {
   kClear,   // nothing reaches between the two
@@ -41,5 +41,11 @@ struct Blockers {
 };
 Sight find_sight(Blockers& blockers, const Bvh& tree, const FaceTable& faces, const PartTable& parts,
                  const ShaftEnd& a, const ShaftEnd& b);
+
+// Does a face stand between the two points, one in each of the two parts, which block nothing themselves? In
+// double precision, and slow: for pairs so small, or so near each other, that rays of single precision would
+// start beyond what is between.
+bool is_blocked(const Bvh& tree, const FaceTable& faces, const PartTable& parts, uint32_t part_a,
+                uint32_t part_b, DVec3 from, DVec3 to);
 
 }  // namespace patchlight

@@ -6,4 +6,5 @@ set(PHYSICS_TEST_SOURCES
   physics/rooms.cpp
   physics/shadows.cpp
   physics/solvers.cpp
+  physics/view_factors.cpp
 )

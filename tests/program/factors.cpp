@@ -3,9 +3,12 @@
 #include "tools/base/json.h"
 
 #include <doctest/doctest.h>
+#include <signal.h>
 
+#include <chrono>
 #include <map>
 #include <sstream>
+#include <thread>
 
 using namespace patchlight;
 using namespace patchlight::testing;
@@ -29,6 +32,31 @@ std::vector<std::vector<std::string>> split_table(const std::string& text) {
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
   }
   return rows;
+}
+
+// A face of a model whose corners lie anywhere in space: its hundreds of triangles all see each other in
+// part, and find no end of rays.
+void write_tangle(const Folder& folder) {
+  std::string model, face = "f";
+  uint64_t state = 1;
+  const auto draw = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 40) * 0x1p-24;
+  };
+  for (int k = 1; k <= 300; ++k) {
+    model += 'v';
+    for (int axis = 0; axis < 3; ++axis) {
+      model += ' ';
+      model += std::to_string(draw());
+    }
+    model += '\n';
+    face += ' ';
+    face += std::to_string(k);
+  }
+  write_bytes(folder / "tangle.obj", model + face + "\n");
+  write_bytes(folder / "tangle.yaml",
+              "patchlight: 1\nmaterials: {grey: {reflectance: 0.5}}\n"
+              "objects: [{id: tangle, mesh: tangle.obj, material: grey}]\n");
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -170,4 +198,35 @@ TEST_CASE("factors warns where rays run out before the error is reached") {
   CHECK(result.exit_code == 0);
   CHECK(has(result.err, "warning[not-converged]"));
   CHECK(Json::parse(result.out)["error_max"]["error"].get<double>() > 1e-6);
+}
+
+TEST_CASE("factors ends in order soon after a signal, in the middle of a pair") {
+  for (const auto& [signal, name] : {std::pair<int, std::string>{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
+    CAPTURE(name);
+    const Folder folder;
+    write_tangle(folder);
+    Child child;
+    start_child(child, {"factors", folder / "tangle.yaml", "--error", "1e-5"});
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // loaded long before
+    kill(child.process, signal);
+    const auto sent = std::chrono::steady_clock::now();
+    const ChildResult result = finish_child(child);
+    INFO(result.err);
+    CHECK(result.exit_code == 128 + signal);
+    // Seldom more than a hundredth of a second; a machine may be busy.
+    CHECK(std::chrono::steady_clock::now() - sent < std::chrono::seconds(5));
+    CHECK(has(result.err, "stopped by " + name));
+    CHECK(result.out.empty());
+  }
+}
+
+TEST_CASE("factors ends at --max-seconds with its slug, and prints nothing") {
+  const Folder folder;
+  write_tangle(folder);
+  const ChildResult result =
+      run_child({"factors", folder / "tangle.yaml", "--error", "1e-5", "--max-seconds", "0.5"});
+  INFO(result.err);
+  CHECK(result.exit_code == 5);
+  CHECK(has(result.err, "error[time-limit]"));
+  CHECK(result.out.empty());
 }

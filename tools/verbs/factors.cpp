@@ -194,6 +194,9 @@ void describe_factors(Usage& usage, Options& options) {
   FactorOptions& factors = options.own.emplace<FactorOptions>();
   add_scene(usage, options);
   add_run_flags(usage, options);
+  for (Flag& flag : usage.flags)
+    if (flag.name == "--max-seconds")
+      flag.help = fmt::format("end a run that takes longer; {} unless given", options.max_seconds);
   add_choice(usage, "--format", {"csv", "json"}, "csv unless given",
              [&factors](size_t choice) { factors.format = static_cast<FactorFormat>(choice); });
   add_value(usage, "--error", "E", "no estimated error of a factor is larger; 0.001 unless given",
@@ -201,11 +204,21 @@ void describe_factors(Usage& usage, Options& options) {
   add_talk_flags(usage, options);
 }
 
+namespace {
+
+FineCorners find_fine_corners(const Scene& scene) {
+  return {scene.fine_corners, scene.origin / scene.units_per_length};
+}
+
+}  // namespace
+
 int factors(const Options& options, Talk& talk) {
   Stopwatch watch;
   if (!options.json) check_standard_output();
   std::vector<Diagnostic> warnings;
-  const Scene scene = load_scene(options.scene, warnings, options.load);
+  LoadOptions load = options.load;
+  load.fine_corners = true;
+  const Scene scene = load_scene(options.scene, warnings, load);
   // Form factors need no lamp.
   std::erase_if(warnings, [](const Diagnostic& warning) { return warning.slug == "no-emitter"; });
   say_diagnostics(talk, warnings);
@@ -213,18 +226,26 @@ int factors(const Options& options, Talk& talk) {
   if (options.json) return 0;
 
   const WorkersScope scope(start_workers(options, talk));
-  const StopSignals signals(*current_workers());
+  const double loading = watch.lap();
+  const StopSignals signals(*current_workers(), std::max(options.max_seconds - loading, 1e-3));
   const FactorOptions& own = get_own<FactorOptions>(options);
   const FactorSettings settings{own.error, options.seed.value_or(scene.solver.seed)};
   const size_t n = scene.polygons.size();
-  const Tracer tracer = make_tracer(scene.faces);
-  const FactorScene factor_scene = make_factor_scene(scene.faces, n);
-  FactorTable table = make_factor_table(factor_scene, n);
+  FactorTable table;
   try {
+    const Tracer tracer = make_tracer(scene.faces);
+    const FactorScene factor_scene = make_factor_scene(scene.faces, n, find_fine_corners(scene));
+    table = make_factor_table(factor_scene, n);
     while (extend_factors(table, factor_scene, scene.faces, tracer, settings))
       say_progress(talk,
                    fmt::format("row {} of {}, {} rays", table.row_done, n, format_count(table.ray_count)));
   } catch (const Cancelled&) {
+    if (stop_signal() == SIGALRM)
+      throw UserError("time-limit",
+                      fmt::format("{} of {} rows are found after {:g} s (--max-seconds raises the limit); "
+                                  "nothing is printed",
+                                  table.row_done, n, options.max_seconds),
+                      scene.file);
     say(talk, fmt::format("stopped by {} after {} of {} rows: nothing is printed",
                           stop_signal() == SIGTERM ? "SIGTERM" : "SIGINT", table.row_done, n));
     return 128 + stop_signal();
@@ -245,7 +266,7 @@ int factors(const Options& options, Talk& talk) {
                     escape_text(scene.polygons.id[summary.error_from]),
                     escape_text(scene.polygons.id[summary.error_to])),
         scene.file);
-  say_summary(talk, scene, table, summary, watch.lap());
+  say_summary(talk, scene, table, summary, loading + watch.lap());
   return 0;
 }
 

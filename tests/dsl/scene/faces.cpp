@@ -234,4 +234,25 @@ TEST_CASE("polygons that single precision cannot hold are told, and never all of
 }
 
 }  // namespace
+
+TEST_CASE("fine corners are those of the file, also of faces that single precision cannot hold") {
+  std::vector<Diagnostic> warnings;
+  LoadOptions options;
+  options.fine_corners = true;
+  const Scene scene =
+      load_scene_text(kHead +
+                          "  - {id: far, quad: {size: [1e9, 1e9]}, material: white}\n"
+                          "  - {id: near, polygon: [[1e9, 0, 0], [1e9, 0, 1], [1000000001, 0, "
+                          "1]], material: white, two_sided: true}\n",
+                      "t.yaml", warnings, options);
+  REQUIRE(scene.faces.size() == 3);
+  REQUIRE(scene.fine_corners.size() == 3);
+  // Units are a power of two, so that every digit is kept.
+  CHECK(scene.fine_corners[1][0] * scene.units_per_length == DVec3(1e9, 0, 0));
+  CHECK(scene.fine_corners[1][2] * scene.units_per_length == DVec3(1000000001, 0, 1));
+  CHECK(scene.fine_corners[2][1] * scene.units_per_length == DVec3(1000000001, 0, 1));
+  CHECK(load_scene_text(kHead + "  - {id: a, quad: {size: [1, 1]}, material: white}\n", "t.yaml", warnings)
+            .fine_corners.empty());
+}
+
 }  // namespace patchlight::test

@@ -118,3 +118,44 @@ TEST_CASE("edges of length nothing, and nothing at all, change nothing") {
   CHECK(find_exchange(a, {}) == 0);
   CHECK(find_exchange({}, b) == 0);
 }
+
+TEST_CASE("very far squares: the factor of points, to many digits") {
+  for (const double distance : {1e5, 1e7, 1e9, 1e12}) {
+    CAPTURE(distance);
+    const double expected = 1 / (std::numbers::pi * distance * distance);
+    const double factor =
+        find_exchange(make_square(1, 0, true), make_square(1, distance, false), 1e-6 * expected);
+    CHECK(std::abs(factor / expected - 1) <= 1e-9);
+  }
+}
+
+TEST_CASE("a small square over a very large one, near and far, and in its corner") {
+  for (const double size : {1e-5, 1e-7, 1e-9})
+    for (const double height : {0.3, 30.0, 3000.0}) {  // of the small one's size
+      CAPTURE(size);
+      CAPTURE(height);
+      // Over the middle: all of the sky but what lies beyond the border, some (height / half)^2.
+      const double middle = 0.5 - size / 2;
+      const Polygon above = {{middle, middle, size * height},
+                             {middle, middle + size, size * height},
+                             {middle + size, middle + size, size * height},
+                             {middle + size, middle, size * height}};
+      const double all = find_exchange(above, make_square(1, 0, true), 1e-12 * size * size);
+      // Places near 0.5 are doubles, too.
+      const double far = 4 * size * height * size * height + 0x1p-52 / size;
+      CHECK(std::abs(all / (size * size) - 1) <= far + 1e-8);
+      // Over the corner, at a height of many of its sizes, a quarter of it.
+      const Polygon corner = {{0, 0, size * height},
+                              {0, size, size * height},
+                              {size, size, size * height},
+                              {size, 0, size * height}};
+      const double quarter = find_exchange(corner, make_square(1, 0, true), 1e-12 * size * size);
+      if (height > 1000) CHECK(std::abs(quarter / (size * size) - 0.25) <= 1 / height + far);
+      // The same by the double integral alone, of squares less unlike.
+      if (height < 1000) {
+        const double near = find_exchange({{0, 0, height}, {0, 1, height}, {1, 1, height}, {1, 0, height}},
+                                          make_square(9000, 0, true), 1e-12);
+        CHECK(std::abs(quarter / (size * size) - near) <= 2 * height * height / 9000.0 / 9000.0 + 1e-8);
+      }
+    }
+}

@@ -23,7 +23,7 @@ Split find_split(const std::vector<Corners>& blockers, double error) {
   Split result;
   ContourScratch scratch;
   result.whole = find_exchange_area(part_outline(parts, 0), part_outline(parts, 1), 1e-9, scratch);
-  split_pair(result.split, make_bvh(faces), faces, parts, 0, 1, result.whole, error, 1e-9, scratch);
+  split_pair(result.split, make_bvh(faces, parts), faces, parts, 0, 1, result.whole, error, 1e-9, scratch);
   return result;
 }
 

@@ -95,3 +95,34 @@ TEST_CASE("a disc of many corners has a rectangle around it for a hull") {
     for (const Vec3& p : ring) CHECK(dot(cross(parts.front[0].normal, edge), DVec3(p) - hull[k]) >= -1e-6);
   }
 }
+
+TEST_CASE("fine corners stand where floats have lost them, and off the plane by their own measure") {
+  FaceTable faces;
+  add_face(faces, std::array{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}, 0, {});
+  FineCorners fine;
+  fine.corners = {{DVec3(7, 0, 1e-12), DVec3(8, 0, 1e-12), DVec3(8, 1, 1e-12), DVec3(7, 1, 1e-12)}};
+  fine.shift = DVec3(7, 0, 0);
+  const PartTable parts = make_parts(faces, 1, fine);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts.front[0].height == 1e-12);
+  CHECK(parts.centre[0].x == 7.5);
+  CHECK(parts.off_plane[0] <= 1e-15);
+  CHECK(parts.touch[0] < 1e-12);
+  CHECK(make_parts(faces, 1).touch[0] > 1e-7);
+}
+
+TEST_CASE("what lies around a polygon that is off its plane lies in the plane") {
+  // A star of six corners, which turn inwards every second time and lie off the plane by a millionth in turn.
+  FaceTable faces;
+  std::vector<Vec3> ring;
+  for (int k = 0; k < 6; ++k) {
+    const auto angle = static_cast<float>(k) * kPi / 3;
+    const float radius = k % 2 == 0 ? 1.0f : 0.3f;
+    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle), k < 3 ? 1e-6f : -1e-6f);
+  }
+  add_fan(faces, Vec3(0), ring, {});
+  const PartTable parts = make_parts(faces, 1);
+  REQUIRE(parts.size() == 1);
+  CHECK(parts.convex[0] == 0);
+  for (const DVec3& p : part_hull(parts, 0)) CHECK(std::abs(height_above(parts.front[0], p)) <= 1e-15);
+}

@@ -22,7 +22,7 @@ Sight find_sight_past(const std::vector<std::vector<Vec3>>& others) {
     ends[part] = {part, {hull.begin(), hull.end()}};
   }
   Blockers blockers;
-  const Bvh tree = make_bvh(faces);
+  const Bvh tree = make_bvh(faces, parts);
   const Sight sight = find_sight(blockers, tree, faces, parts, ends[0], ends[1]);
   CHECK((find_sight(blockers, tree, faces, parts, ends[1], ends[0]) == sight));
   return sight;
@@ -77,4 +77,24 @@ TEST_CASE("a tree finds a face among thousands") {
   CHECK((find_sight_past(others) == Sight::kClear));
   others.push_back(make_level(0.5f, 0.51f, 0.3f));
   CHECK((find_sight_past(others) == Sight::kMixed));
+}
+
+TEST_CASE("a line between two parts is blocked by what crosses it, and by nothing that touches its ends") {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {});
+  add_quad(faces, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 0, 1}, {});
+  add_polygon(faces, make_level(0.2f, 0.5f, 0.5f), {});
+  add_polygon(faces, make_level(0.8f, 1, 0), {});
+  const PartTable parts = make_parts(faces, next_polygon(faces));
+  const Bvh tree = make_bvh(faces, parts);
+  const auto blocked = [&](DVec3 from, DVec3 to) {
+    const bool one = is_blocked(tree, faces, parts, 0, 1, from, to);
+    CHECK(is_blocked(tree, faces, parts, 0, 1, to, from) == one);
+    return one;
+  };
+  CHECK(blocked({0.3, 0.3, 0}, {0.3, 0.3, 1}));
+  CHECK(blocked({0.3, 0.45, 0}, {0.45, 0.3, 1}));
+  CHECK(!blocked({0.6, 0.3, 0}, {0.6, 0.3, 1}));
+  CHECK(!blocked({0.9, 0.9, 0}, {0.9, 0.9, 1}));
+  CHECK(blocked({0.1, 0.1, 0}, {0.5, 0.5, 1}));
 }
