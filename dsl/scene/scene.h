@@ -3,6 +3,7 @@
 
 #include "engine/film/lens.h"
 #include "engine/settings.h"
+#include "engine/sky.h"
 #include "engine/tables.h"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ struct Scene {
   std::string file;  // as the user named it; <stdin> for -
   std::string title;
   FaceTable faces;
+  Sky sky;
   PolygonTable polygons;
   std::vector<std::string> object_ids;
   bool is_heat = false;         // all materials in use are given by emissivity: one channel, W/m2 of heat

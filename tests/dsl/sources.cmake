@@ -18,6 +18,7 @@ set(DSL_TEST_SOURCES
   dsl/scene/language_tables.cpp
   dsl/scene/readmes.cpp
   dsl/scene/settings.cpp
+  dsl/scene/sky.cpp
   dsl/scene/suspicious.cpp
   dsl/scene/wrong_records.cpp
   dsl/scene/wrong_scenes.cpp

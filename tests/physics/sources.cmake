@@ -5,5 +5,6 @@ set(PHYSICS_TEST_SOURCES
   physics/passes.cpp
   physics/rooms.cpp
   physics/shadows.cpp
+  physics/sky.cpp
   physics/solvers.cpp
 )
