@@ -44,7 +44,8 @@ Rows get_rows(const Solution& s) {
 }
 
 DirectRays final_rays(const SolverSettings& settings) {
-  return {std::max(count_row_rays(settings) / 8, 16u), std::max(count_row_rays(settings) / 2, 16u)};
+  const uint32_t rays = count_row_rays(settings);
+  return {std::max(rays / 8, 16u), std::max(rays / 2, 16u), std::max(rays, 16u)};
 }
 
 std::vector<Rgb> find_sky_light(Solution& s) {

@@ -55,9 +55,10 @@ void find_element_patches(Solution& s) {
 
 // Rays a lamp on the starting mesh, whose elements may be large beside a spot of light, while the mesh is
 // refined, and once it is final.
-constexpr DirectRays kStartRays{64, 64};
+constexpr DirectRays kStartRays{64, 64, 64};
 DirectRays round_rays(const SolverSettings& settings) {
-  return {16, std::max(count_row_rays(settings) / 4, 16u)};
+  const uint32_t mixed = std::max(count_row_rays(settings) / 4, 16u);
+  return {16, mixed, mixed};
 }
 
 // Through windows the sky is seen in pieces as small as they are: fine cells, where most rows stay inside.

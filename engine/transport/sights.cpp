@@ -22,6 +22,7 @@ constexpr double kEmitterSkyMax = 0.8;
 constexpr uint32_t kFirstPackets = 4, kMixedPackets = 16;
 // Rays at a group of the sky by which is told whether anything of it, or of one beside it, may be seen.
 constexpr uint32_t kGlancePackets = 1;
+constexpr size_t kFewGroups = 8;
 // A group that gives less than this share of a receiver's light, blockers aside, gets the first rays only.
 constexpr float kWeakShare = 0.03f;
 
@@ -206,15 +207,18 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
       // All look at the sky: rows tell nothing of it.
       const size_t group_first = aiming[faces.polygon[face]] ? 0 : groups.lamp_group_count();
       if (group_first == group_count) continue;
-      float exposed = 0, all = 0;
+      float exposed = 0, all = 0, sky_sum = 0;
       for (uint32_t k = receivers.first[r]; k < receivers.first[r + 1]; ++k)
         exposed = std::max(exposed, from.patches.exposed[receivers.patch[k]]);
       if (exposed == 0) continue;
       const bool buried = exposed < 1;
-      for (size_t g = group_first; g < group_count; ++g)
-        all += sums[g] = groups.is_sky(g)
-                             ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
-                             : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
+      for (size_t g = group_first; g < group_count; ++g) {
+        sums[g] = groups.is_sky(g)
+                      ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
+                      : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
+        all += sums[g];
+        if (groups.is_sky(g) && !groups.is_sun(g)) sky_sum += sums[g];
+      }
       const bool single = receivers.first[r + 1] - receivers.first[r] == 1;
       looks.assign(group_count, {});
       const auto look_at = [&](size_t g, uint32_t first, uint32_t last) {
@@ -230,7 +234,11 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         if (!is_below(g)) look_at(g, 0, kGlancePackets);
       const auto is_glimpsed = [&](size_t g) { return glimpsed[g] != 0; };
       glimpsed.assign(group_count, 0);
-      for (size_t g = group_first; g < group_count; ++g) glimpsed[g] = looks[g].arrived > 0;
+      size_t glimpsed_count = 0;
+      for (size_t g = group_first; g < group_count; ++g) {
+        glimpsed[g] = looks[g].arrived > 0;
+        glimpsed_count += glimpsed[g];
+      }
       for (size_t g = group_first; g < group_count; ++g) {
         const bool sun = groups.is_sun(g);
         if (is_below(g) || (groups.is_sky(g) && !sun &&
@@ -242,7 +250,10 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
         look_at(g, groups.is_sky(g) ? kGlancePackets : 0, first_packets);
         const Look& sum = looks[g];
-        const bool weak = sums[g] < kWeakShare * all;
+        // Through a window few groups of the sky are seen, and all of them count.
+        const bool weak = groups.is_sky(g) && !sun
+                              ? glimpsed_count > kFewGroups && sums[g] < kWeakShare * sky_sum
+                              : sums[g] < kWeakShare * all;
         if (!weak && sum.rays > 0 && sum.arrived < sum.rays) look_at(g, first_packets, kMixedPackets);
         rays += sum.rays;
         seen[r * group_count + g] = sum.reached;
