@@ -222,8 +222,9 @@ bool is_equal(const Table& a, const Table& b) {
 }
 
 // The mesh of a scene with all its rounds, and `pass_count` passes.
-inline Solution solve_scene(const FaceTable& faces, const SolverSettings& settings, uint32_t pass_count) {
-  Solution solution = make_solution(make_surfaces(faces), settings);
+inline Solution solve_scene(const FaceTable& faces, const SolverSettings& settings, uint32_t pass_count,
+                            const Sky& sky = {}) {
+  Solution solution = make_solution(make_surfaces(faces, sky), settings);
   while (refine(solution)) {
   }
   while (solution.log.passes.size() < pass_count) advance(solution);

@@ -21,6 +21,8 @@ constexpr KeyRow kSceneRows[] = {
     {"materials", kMap, false, "", 0, 0, "", "*material", "Materials by name."},
     {"objects", kList, false, "", 1, kAnyInteger, "", "object",
      "The things in the scene; one at least, here or in an included file."},
+    {"sky", kMap, false, "", 0, 0, "", "sky", "The sky, infinitely far away. Absent: black."},
+    {"sun", kMap, false, "", 0, 0, "", "sun", "The sun, a disc in the sky. Absent: none."},
     {"camera", kMap, false, "", 0, 0, "", "camera",
      "The camera, where one is enough. Absent: one that fits the scene."},
     {"cameras", kList, false, "", 0, 0, "", "camera", "Several cameras, each with a name."},
@@ -91,6 +93,52 @@ constexpr KeyRule kMaterialRules[] = {
      "'temperature' wants 'emissivity' beside it; 1 is a black body"},
 };
 
+constexpr KeyRow kSkyRows[] = {
+    {"kind", kChoice, false, "plain", 0, 0, "bad-name", "plain|overcast|clear",
+     "plain, or how bright a standard sky is in each direction: overcast (CIE) or clear (Preetham)."},
+    {"emission", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "What a horizontal plane under the whole sky receives, W/m2; of a plain sky the emission all over."},
+    {"zenith", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "Emission overhead, W/m2; from the horizon to there it grows with the sine of the elevation."},
+    {"horizon", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "Emission at the horizon, beside 'zenith', W/m2."},
+    {"ground", kRgb, false, "0", 0, kEmissionMax, "emission-range", "",
+     "Emission of what is seen below the horizon, W/m2."},
+    {"turbidity", kNumber, false, "3", 2, 10, "out-of-range", "",
+     "Haze of a clear sky: 2 is very clear, 10 hazy."},
+};
+constexpr KeyRule kSkyRules[] = {
+    {kOneOf, "emission|zenith|horizon", "", "missing-key",
+     "a sky wants 'emission', or 'zenith' and 'horizon'"},
+    {kExcludes, "zenith|horizon", "emission", "ambiguous-sky",
+     "a sky has either 'emission', or 'zenith' and 'horizon'"},
+    {kNeeds, "zenith", "horizon", "missing-key", "'zenith' wants 'horizon' beside it"},
+    {kNeeds, "horizon", "zenith", "missing-key", "'horizon' wants 'zenith' beside it"},
+};
+
+constexpr KeyRow kSunRows[] = {
+    {"direction", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
+     "From the scene towards the sun: [0, 1, 0] is overhead."},
+    {"azimuth", kNumber, false, "", -360, 360, "out-of-range", "",
+     "Degrees from north (-z) by way of east (x): clockwise seen from above."},
+    {"elevation", kNumber, false, "", -90, 90, "out-of-range", "", "Degrees above the horizon."},
+    {"irradiance", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "What it brings to a surface that faces it, W/m2: a number or [r, g, b]."},
+    {"emission", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
+     "Instead: the exitance of its disc, W/m2."},
+    {"angle", kNumber, false, "0.53", 0.01, 90, "out-of-range", "", "Its diameter, degrees."},
+};
+constexpr KeyRule kSunRules[] = {
+    {kOneOf, "direction|elevation|azimuth", "", "missing-key",
+     "a sun wants 'direction', or 'azimuth' and 'elevation'"},
+    {kExcludes, "azimuth|elevation", "direction", "ambiguous-sky",
+     "a sun has either 'direction', or 'azimuth' and 'elevation'"},
+    {kNeeds, "azimuth", "elevation", "missing-key", "'azimuth' wants 'elevation' beside it"},
+    {kNeeds, "elevation", "azimuth", "missing-key", "'elevation' wants 'azimuth' beside it"},
+    {kOneOf, "irradiance|emission", "", "missing-key", "a sun wants 'irradiance' or 'emission'"},
+    {kExcludes, "irradiance", "emission", "ambiguous-sky", "a sun has either 'irradiance' or 'emission'"},
+};
+
 constexpr KeyRow kSolverRows[] = {
     {"passes", kInteger, false, "16", 1, kPassesMax, "out-of-range", "", "At most so many passes (bounces)."},
     {"until", kNumber, false, "0.001", 0, 1, "out-of-range", "",
@@ -129,6 +177,8 @@ const KeyTable kTransformKeys = {"transform", kTransformRows, kTransformRules};
 const KeyTable kRotateKeys = {"rotate", kRotateRows};
 const KeyTable kExpectKeys = {"expect", kExpectRows};
 const KeyTable kMaterialKeys = {"material", kMaterialRows, kMaterialRules};
+const KeyTable kSkyKeys = {"sky", kSkyRows, kSkyRules};
+const KeyTable kSunKeys = {"sun", kSunRows, kSunRules};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};
 

@@ -81,6 +81,8 @@ extern const KeyTable kTransformKeys;  // of one step of `transform`
 extern const KeyTable kRotateKeys;
 extern const KeyTable kExpectKeys;  // of one entry of `expect`
 extern const KeyTable kMaterialKeys;
+extern const KeyTable kSkyKeys;
+extern const KeyTable kSunKeys;
 extern const KeyTable kSolverKeys;
 extern const KeyTable kOutputKeys;
 

@@ -71,6 +71,10 @@ std::string value_text(const Context& context, const KeyRow& row, const Value& v
       return list_text(integers, 2);
     case ValueType::kVec3:
       return list_text(value.number, 3);
+    case ValueType::kRgb:
+      return value.number[0] == value.number[1] && value.number[1] == value.number[2]
+                 ? number_text(value.number[0])
+                 : list_text(value.number, 3);
     case ValueType::kIntegers:
       return given ? integers_text(context, value.node) : std::string(row.fallback);
     case ValueType::kNumberOrWord:
@@ -99,6 +103,14 @@ void add_map(const Context& context, const std::string& prefix, uint32_t node, c
   const MapValues map = node == kNone ? default_values(table) : read_map(context, node, table);
   for (const KeyRow& row : table.rows)
     if (row.key != "name") add_row(context, prefix, map, row, settings);
+}
+
+// Rows of a map that are given or have a fallback: of the others none is chosen automatically.
+void add_given(const Context& context, const std::string& prefix, uint32_t node, const KeyTable& table,
+               SettingTable& settings) {
+  const MapValues map = read_map(context, node, table);
+  for (const KeyRow& row : table.rows)
+    if (has(map, row.key) || !row.fallback.empty()) add_row(context, prefix, map, row, settings);
 }
 
 void add_variables(const Context& context, SettingTable& settings) {
@@ -132,6 +144,8 @@ SettingTable list_settings(const Context& context, const MapValues& map, const S
   if (has(map, "title")) add_row(context, "", map, row_of(kSceneKeys, "title"), settings);
   add_row(context, "", map, row_of(kSceneKeys, "units"), settings);
   add_variables(context, settings);
+  for (const auto& [key, table] : {std::pair{"sky", &kSkyKeys}, {"sun", &kSunKeys}})
+    if (has(map, key)) add_given(context, std::string(key) + ".", value_of(map, key).node, *table, settings);
   if (has(map, "camera")) {
     add_map(context, "camera.", value_of(map, "camera").node, camera_keys(), settings);
   } else if (has(map, "cameras") && tree.nodes[value_of(map, "cameras").node].count > 0) {

@@ -44,7 +44,7 @@ uint32_t parse_file(Reader& reader, uint32_t node, const fs::path& path) {
 
 // What an included file may not say: it adds to the scene, and leaves its settings alone.
 void check_included(const Reader& reader, const MapValues& map) {
-  for (const std::string_view key : {"camera", "cameras", "solver", "output", "expect"})
+  for (const std::string_view key : {"sky", "sun", "camera", "cameras", "solver", "output", "expect"})
     if (const uint32_t node = value_of(map, key).node; node != kNone)
       add_error(reader.context.messages, place_of(reader.tree, node), "unknown-key",
                 fmt::format("'{}' belongs into the scene itself, not into a file that it includes", key));

@@ -17,7 +17,8 @@ std::vector<const KeyTable*> join_tables() {
     if (shape.keys) tables.push_back(shape.keys);
   for (const ShapeRow& shape : shape_rows())
     for (const KeyTable& table : shape.inner) tables.push_back(&table);
-  for (const KeyTable* table : {&camera_keys(), &kSolverKeys, &kOutputKeys, &kExpectKeys})
+  for (const KeyTable* table :
+       {&kSkyKeys, &kSunKeys, &camera_keys(), &kSolverKeys, &kOutputKeys, &kExpectKeys})
     tables.push_back(table);
   return tables;
 }

@@ -14,6 +14,7 @@
 #include "dsl/scene/faces.h"
 #include "dsl/scene/include.h"
 #include "dsl/scene/settings.h"
+#include "dsl/scene/sky.h"
 #include "dsl/scene/suspicious.h"
 #include "dsl/shapes/objects.h"
 #include "dsl/yaml/source.h"
@@ -73,6 +74,7 @@ void read_settings(const Context& context, const MapValues& map, Scene& scene) {
   const auto unit = static_cast<size_t>(value_of(map, "units").integer[0]);
   scene.units = kUnitNames[unit];
   scene.metres_per_unit = kUnitMetres[unit];
+  read_sky(context, map, scene);
   if (const uint32_t node = node_of(tree, map, "camera", NodeKind::kMap); node != kNone)
     read_camera(context, node, scene.cameras);
   if (const uint32_t node = node_of(tree, map, "cameras", NodeKind::kList); node != kNone)
@@ -90,8 +92,9 @@ void check_not_empty(const Context& context, const MapValues& map, const SceneOb
             objects.objects.size() > 0 ? "the scene's objects have no polygons" : "the scene has no objects");
 }
 
-void warn_of_materials(const Context& context, const MaterialTable& materials, uint32_t root) {
-  bool emits = false;
+void warn_of_materials(const Context& context, const MaterialTable& materials, const Sky& sky,
+                       uint32_t root) {
+  bool emits = !sky.is_dark();
   for (uint32_t m = 0; m < materials.size(); ++m) {
     const Place place = place_of(context.tree, materials.node[m]);
     if (!materials.used[m])
@@ -101,8 +104,16 @@ void warn_of_materials(const Context& context, const MaterialTable& materials, u
     emits = emits || (materials.used[m] && std::max({e.r, e.g, e.b}) > 0);
   }
   if (!emits)
-    add_warning(context.messages, place_of(context.tree, root), "no-emitter",
-                "nothing emits light: every picture will be black; give a material an emission");
+    add_warning(
+        context.messages, place_of(context.tree, root), "no-emitter",
+        "nothing emits light: every picture will be black; give a material an emission, or add a sky");
+}
+
+// Are the three channels of the sky and the sun equal?
+bool is_grey(const Sky& sky) {
+  const auto is_even = [](Rgb value) { return value.r == value.g && value.g == value.b; };
+  return !sky.clear && is_even(sky.zenith) && is_even(sky.horizon) && is_even(sky.ground) &&
+         is_even(sky.sun_emission);
 }
 
 // File units to engine lengths.
@@ -149,11 +160,12 @@ Scene compile(Messages& messages, const std::string& path, const LoadOptions& op
                std::max(options.limits.starting_patches, scene.solver.patch_count_max), scene,
                options.fine_corners);
   }
+  scene.is_heat = scene.is_heat && is_grey(scene.sky);
   throw_errors(messages);
   if (const uint32_t list = value_of(map, "expect").node; list != kNone)
     read_expectations(context, list, scene);
   throw_errors(messages);
-  warn_of_materials(context, objects.materials, root);
+  warn_of_materials(context, objects.materials, scene.sky, root);
   warn_of_flipped(messages, tree, objects.materials, objects.objects, objects.outlines);
   warn_of_inside_out_meshes(messages, tree, objects.materials, objects.objects, objects.outlines,
                             scene.cameras);

@@ -3,6 +3,7 @@
 
 #include "engine/film/lens.h"
 #include "engine/settings.h"
+#include "engine/sky.h"
 #include "engine/tables.h"
 
 #include <algorithm>
@@ -72,6 +73,7 @@ struct Scene {
   FaceTable faces;
   // The corners of all faces as doubles, without `origin` taken off; in lengths; empty unless asked for.
   std::vector<std::array<DVec3, 4>> fine_corners;
+  Sky sky;
   PolygonTable polygons;
   std::vector<std::string> object_ids;
   bool is_heat = false;         // all materials in use are given by emissivity: one channel, W/m2 of heat

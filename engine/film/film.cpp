@@ -6,6 +6,7 @@
 #include "engine/film/seen.h"
 
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -84,10 +85,24 @@ void add_tile(PixelSum& sum, const Scenery& s, const Seen& seen, float share, bo
   }
 }
 
+// Marks the pixels of a box, a pixel wider, unless it is large or lies outside.
+void add_small_box(std::vector<uint8_t>& pixels, Vec2 low, Vec2 high, const Lens& lens, const View& view) {
+  constexpr float kSmallLamp = 32;  // pixels
+  const float left = low.x, right = high.x, top = low.y, bottom = high.y;
+  const float width = lens.width, height = lens.height;
+  if (right < 0 || bottom < 0 || left > width || top > height ||
+      std::max(right - left, bottom - top) > kSmallLamp)
+    return;
+  const auto x_end = static_cast<uint32_t>(std::min(right + 2, width));
+  const auto y_end = static_cast<uint32_t>(std::min(bottom + 2, height));
+  for (auto y = static_cast<uint32_t>(std::max(top - 1, 0.0f)); y < y_end; ++y)
+    for (auto x = static_cast<uint32_t>(std::max(left - 1, 0.0f)); x < x_end; ++x)
+      pixels[size_t{y} * view.width + x] = 1;
+}
+
 // Pixels that the bounding boxes of small lamps cover, a pixel wider: sixteen samples might miss what is
 // small and bright.
 std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Lens& lens, const View& view) {
-  constexpr float kSmallLamp = 32;  // pixels
   std::vector<uint8_t> pixels(size_t{view.width} * view.height, 0);
   for (size_t f = 0; f < faces.size(); ++f) {
     if (largest(faces.emission[f]) == 0) continue;
@@ -98,19 +113,54 @@ std::vector<uint8_t> find_lamp_pixels(const FaceTable& faces, const Lens& lens, 
       behind |= !lens.find_place(faces.corners[f][k], at);
       low = min(low, at), high = max(high, at);
     }
-    if (behind) continue;
-    const float left = low.x, right = high.x, top = low.y, bottom = high.y;
-    const float width = lens.width, height = lens.height;
-    if (right < 0 || bottom < 0 || left > width || top > height ||
-        std::max(right - left, bottom - top) > kSmallLamp)
-      continue;
-    const auto x_end = static_cast<uint32_t>(std::min(right + 2, width));
-    const auto y_end = static_cast<uint32_t>(std::min(bottom + 2, height));
-    for (auto y = static_cast<uint32_t>(std::max(top - 1, 0.0f)); y < y_end; ++y)
-      for (auto x = static_cast<uint32_t>(std::max(left - 1, 0.0f)); x < x_end; ++x)
-        pixels[size_t{y} * view.width + x] = 1;
+    if (!behind) add_small_box(pixels, low, high, lens, view);
   }
   return pixels;
+}
+
+// Pixels that a small sun covers, as above.
+void add_sun_pixels(std::vector<uint8_t>& pixels, const Sky& sky, const Lens& lens, const View& view) {
+  if (!sky.has_sun()) return;
+  const Frame frame = make_frame(sky.sun_direction);
+  const float radius = std::tan(sky.sun_radius);
+  Vec2 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const Vec2& corner : {Vec2(-1, -1), Vec2(-1, 1), Vec2(1, -1), Vec2(1, 1)}) {
+    Vec2 at(0);
+    if (!lens.find_place(
+            lens.eye + frame.normal + radius * (corner.x * frame.tangent + corner.y * frame.bitangent), at))
+      return;
+    low = min(low, at), high = max(high, at);
+  }
+  add_small_box(pixels, low, high, lens, view);
+}
+
+// What the samples of one pixel show of the sky.
+struct SkySum {
+  float share = 0, sun_share = 0;
+  Rgb emission{0};  // summed over its samples
+};
+
+// Adds a tile of samples of weight `share`; widens the range of brightness.
+void add_sky_tile(SkySum& sum, const Seen& seen, const Vec2 (&at)[kPacketSize], const Prospect& prospect,
+                  float share, float& least, float& most) {
+  if (seen.left == 0) return;
+  const Sky& sky = prospect.surfaces.sky;
+  Vec3 above(0), below(0);  // sums of directions
+  float above_count = 0, below_count = 0, sun_count = 0;
+  for (uint32_t rest = seen.left; rest != 0; rest &= rest - 1) {
+    const Vec3 direction = prospect.lens.find_direction(at[static_cast<uint32_t>(std::countr_zero(rest))]);
+    direction.y < 0 ? (below += direction, below_count += 1) : (above += direction, above_count += 1);
+    sun_count += sky.has_sun() && is_in_sun(sky, direction);
+  }
+  // On each side of the horizon it is smooth: the middle of the samples tells their mean.
+  for (const auto& [direction, count] : {std::pair{above, above_count}, {below, below_count}}) {
+    if (count == 0) continue;
+    const Rgb emission = find_sky_emission(sky, normalize(direction));
+    sum.share += share * count, sum.emission += share * count * emission;
+    least = std::min(least, largest(emission)), most = std::max(most, largest(emission));
+  }
+  sum.sun_share += share * sun_count;
+  if (sun_count > 0) most = std::max(most, largest(sky.sun_emission));
 }
 
 // How much of each pixel the lines between elements cover: samples whose right or lower neighbour one pixel
@@ -154,7 +204,9 @@ FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& sett
   assert(s.mesh.frozen || !settings.smooth);
   assert(view.width > 0 && view.height > 0);
   const Prospect prospect{make_lens(view), s.surfaces, s.mesh.elements};
-  const std::vector<uint8_t> lamp_pixels = find_lamp_pixels(s.surfaces.faces, prospect.lens, view);
+  const Sky& sky = s.surfaces.sky;
+  std::vector<uint8_t> lamp_pixels = find_lamp_pixels(s.surfaces.faces, prospect.lens, view);
+  add_sun_pixels(lamp_pixels, sky, prospect.lens, view);
   const size_t pixel_count = size_t{view.width} * view.height;
   struct Chunk {
     std::vector<uint32_t> value;
@@ -166,9 +218,14 @@ FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& sett
   FilmTable film;
   film.width = view.width, film.height = view.height;
   film.pixel_first.assign(pixel_count + 1, 0);
+  const bool has_sky = !sky.is_dark();
+  film.sky_share.resize(has_sky ? pixel_count : 0);
+  film.sun_share.resize(film.sky_share.size()), film.sky.resize(film.sky_share.size());
+  film.sun = sky.sun_emission;
   std::atomic<uint64_t> ray_count{0};
   for_rows(chunks.size(), 1, [&](size_t begin, size_t end) {
     PixelSum sum;
+    SkySum sky_sum;
     Seen seen;
     uint32_t guess = kNone;
     Vec2 at[kPacketSize];
@@ -181,6 +238,7 @@ FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& sett
         const auto take = [&](uint32_t side) {
           float least = std::numeric_limits<float>::max(), most = 0;
           sum.clear();
+          sky_sum = {};
           const uint32_t tiles = side / 4;
           const float step = 1 / static_cast<float>(side), share = step * step;
           for (uint32_t tile = 0; tile < tiles * tiles; ++tile) {
@@ -191,7 +249,9 @@ FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& sett
             }
             rays += find_seen(seen, guess, at, prospect);
             add_tile(sum, s, seen, share, settings.smooth);
+            if (has_sky) add_sky_tile(sky_sum, seen, at, prospect, share, least, most);
             for (uint32_t k = 0; k < kPacketSize; ++k) {
+              if (has_sky && seen.left >> k & 1u) continue;
               const float value = seen.element[k] == kNone ? 0 : s.brightness[seen.element[k]];
               least = std::min(least, value), most = std::max(most, value);
             }
@@ -203,6 +263,10 @@ FilmTable make_film(const Scenery& s, const View& view, const FilmSettings& sett
           take(kSideHighContrast);
         else if (contrast > kContrast * s.mean_brightness)
           take(kSideContrast);
+        if (has_sky) {
+          film.sky_share[pixel] = sky_sum.share, film.sun_share[pixel] = sky_sum.sun_share;
+          film.sky[pixel] = sky_sum.share > 0 ? sky_sum.emission / sky_sum.share : Rgb(0);
+        }
         film.pixel_first[pixel + 1] = sum.value.size();
         chunks[c].value.insert(chunks[c].value.end(), sum.value.begin(), sum.value.end());
         chunks[c].weight.insert(chunks[c].weight.end(), sum.weight.begin(), sum.weight.end());
@@ -264,6 +328,21 @@ std::vector<Rgb> expose(const FilmTable& film, std::span<const Rgb> values) {
     }
   });
   return pixels;
+}
+
+SkyValues find_sky_values(const FilmTable& film) {
+  SkyValues values{film.sky, film.sky};
+  for (Rgb& value : values.with_sun) value += film.sun;
+  return values;
+}
+
+void add_sky(std::span<Rgb> pixels, const FilmTable& film, const SkyValues& shown) {
+  if (film.sky_share.empty()) return;
+  for_rows(pixels.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t pixel = begin; pixel < end; ++pixel)
+      pixels[pixel] += (film.sky_share[pixel] - film.sun_share[pixel]) * shown.plain[pixel] +
+                       film.sun_share[pixel] * shown.with_sun[pixel];
+  });
 }
 
 }  // namespace patchlight

@@ -99,7 +99,10 @@ bool see_one_face(Seen& seen, uint32_t& guess, const HitPacket& packet, const Pr
   uint32_t differing = 0;
   for (uint32_t k = 0; k < kPacketSize; ++k) differing |= packet.face[k] ^ face;
   if (differing != 0) return false;
-  if (face == kNone) return true;
+  if (face == kNone) {
+    seen.left = kAll;
+    return true;
+  }
   const RayPacket& r = packet.ray;
   const Vec3 normal = surfaces.faces.normal[face];
   float facing_most = -1;
@@ -130,6 +133,7 @@ uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], c
   HitPacket packet;
   uint32_t active = aim(packet, at, lens);
   for (uint32_t k = 0; k < kPacketSize; ++k) seen.element[k] = kNone;
+  seen.left = 0;
   uint64_t rays = 0;
   for (uint32_t through = 0; active && through < kBackSidesMax; ++through) {
     find_hits(surfaces.tracer, packet, active);
@@ -149,6 +153,7 @@ uint64_t find_seen(Seen& seen, uint32_t& guess, const Vec2 (&at)[kPacketSize], c
         continue;
       }
       active &= ~(1u << k);
+      if (face == kNone) seen.left |= 1u << k;
       if (face == kNone || is_back) continue;
       const Vec2 uv = find_face_parameters(frames, face, lens.eye + r.far_distance[k] * direction);
       seen.u[k] = uv.x, seen.v[k] = uv.y, seen.distance[k] = r.far_distance[k];

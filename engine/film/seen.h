@@ -12,6 +12,7 @@ struct Seen {
   uint32_t element[kPacketSize];
   float u[kPacketSize], v[kPacketSize];
   float distance[kPacketSize];  // lengths
+  uint32_t left;                // those that met nothing and left the scene: a bit a sample
 };
 
 // What is looked at, and how.

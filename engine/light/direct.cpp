@@ -14,6 +14,9 @@ namespace {
 
 // A lamp that gives less than this share of an element's light, blockers aside, gets no more than one packet.
 constexpr double kWeakLamp = 0.06;
+// The same of a group of the sky's cells beside the sky alone: in the shade the sun says nothing of what
+// counts.
+constexpr double kWeakSky = 0.1;
 
 }  // namespace
 
@@ -43,10 +46,16 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
   const SightTable& sights = scene.sights;
   const FaceFrameTable& frames = scene.surfaces.frames;
   assert(out.irradiance.size() == elements.size());
-  const uint32_t packet_count = std::clamp((rays.mixed + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
+  const auto count_packets = [](uint32_t ray_count) {
+    return std::clamp((ray_count + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
+  };
+  const uint32_t packet_count = count_packets(rays.mixed);
+  const uint32_t sky_packet_count = count_packets(rays.mixed_sky);
+  const uint32_t most_packets =
+      groups.sky_group_count > 0 ? std::max(packet_count, sky_packet_count) : packet_count;
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
-    ElementPoints from(scene.surfaces, elements, packet_count);
+    ElementPoints from(scene.surfaces, elements, most_packets);
     std::vector<GroupLook> looks;
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
@@ -63,11 +72,12 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
       // What each group would give if nothing were in its way, and all of them together.
       looks.resize(last - first);
-      double unoccluded = 0;
+      double unoccluded = 0, sky = 0;
       for (uint32_t k = first; k < last; ++k) {
         GroupLook& look = looks[k - first];
         find_unoccluded(look, from, corners, groups, sights.group[k], sights.pieces[k]);
         unoccluded += look.strength;
+        if (groups.is_sky(sights.group[k]) && !groups.is_sun(sights.group[k])) sky += look.strength;
       }
       for (uint32_t k = first; k < last; ++k) {
         const GroupLook& look = looks[k - first];
@@ -77,7 +87,9 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
           continue;
         }
         // One packet for a group that is weak among many.
-        const uint32_t most = look.strength < kWeakLamp * unoccluded ? 1 : packet_count;
+        const bool of_sky = groups.is_sky(sights.group[k]) && !groups.is_sun(sights.group[k]);
+        const bool weak = look.strength < (of_sky ? kWeakSky * sky : kWeakLamp * unoccluded);
+        const uint32_t most = weak ? 1 : of_sky ? sky_packet_count : packet_count;
         const VisibilitySums sums = find_visibility(from, look, groups, sights.group[k], most, rays.unmixed);
         cast += sums.rays;
         irradiance += sums.share() * look.irradiance;

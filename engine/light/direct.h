@@ -33,6 +33,8 @@ struct DirectScene {
 // and some do not.
 struct DirectRays {
   uint32_t unmixed = 16, mixed = 64;
+  // `mixed` for a group of the sky: of what a narrow window leaves of its cells most may be hidden.
+  uint32_t mixed_sky = 64;
 };
 
 // Direct light of the elements `rows`; others are not touched. No rays where a group is in clear sight.

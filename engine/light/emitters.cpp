@@ -127,9 +127,33 @@ void split_group(std::vector<PieceName>& names, uint32_t first, uint32_t last, s
   split_group(names, middle, last, ends);
 }
 
+// Groups of the sky's cells, as they lie side by side, and one of the sun alone.
+void add_sky(EmitterGroups& groups, const Sky& sky, SkyDetail detail) {
+  groups.sky = make_sky_pieces(sky, detail);
+  const SkyPieces& pieces = groups.sky;
+  const auto row_count = static_cast<uint32_t>(pieces.size());
+  const uint32_t cell_count = row_count - (pieces.has_sun ? 1 : 0);
+  const auto lamp_count = static_cast<uint32_t>(groups.pieces.size());
+  groups.beside.resize(lamp_count + row_count);
+  for (uint32_t first = 0; first < row_count;) {
+    const uint32_t end =
+        first == cell_count ? row_count : std::min(first + uint32_t{kGroupPiecesMax}, cell_count);
+    for (uint32_t row = first; row < end; ++row) {
+      uint64_t& mask = groups.beside[lamp_count + row] = uint64_t{1} << (row - first);
+      for (uint32_t k = pieces.beside_first[row]; k < pieces.beside_first[row + 1]; ++k)
+        if (const uint32_t other = pieces.beside[k]; other >= first && other < end)
+          mask |= uint64_t{1} << (other - first);
+    }
+    groups.piece_first.push_back(lamp_count + end);
+    ++groups.sky_group_count;
+    first = end;
+  }
+}
+
 }  // namespace
 
-EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames) {
+EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames, const Sky& sky,
+                                  SkyDetail detail) {
   const std::vector<Emitter> lamps = make_emitters(faces, frames);
   Vec3 low(1e30f), high(-1e30f);
   double area = 0, power = 0;
@@ -194,6 +218,7 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
           groups.beside[a] |= uint64_t{1} << (b - first);
     }
   }
+  add_sky(groups, sky, detail);
   return groups;
 }
 

@@ -1,6 +1,7 @@
 // Faces that emit, or cells that shoot, and how much of a point's sky they fill.
 #pragma once
 
+#include "engine/light/sky_pieces.h"
 #include "engine/mesh/cell.h"
 
 #include <span>
@@ -29,7 +30,8 @@ Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const
 constexpr size_t kGroupPiecesMax = 64;  // as many as fit a 64-bit mask
 
 // Emitters in groups of pieces that a receiver looks at as one: the facets of a bulb, the lamps of a ceiling,
-// the cells of a wide sky. Pieces of a group are side by side and sorted by place.
+// cells of the sky, the sun. Pieces of a group are side by side and sorted by place. Groups of the sky come
+// last: their pieces are rows of `sky`.
 struct EmitterGroups {
   std::vector<Emitter> pieces;
   std::vector<Rgb> emission;          // a row a piece, W/m2
@@ -38,16 +40,25 @@ struct EmitterGroups {
   std::vector<float> x, y, z;                       // lengths: centres
   std::vector<float> normal_x, normal_y, normal_z;  // times area and luminance over pi
   std::vector<float> diameter_squared;              // lengths squared
-  std::vector<uint64_t> beside;                     // a row a piece: itself and those of its group next to it
+  // A row a piece, those of the sky included: itself and those of its group next to it.
+  std::vector<uint64_t> beside;
+  SkyPieces sky;
+  uint32_t sky_group_count = 0;
+  size_t lamp_group_count() const { return size() - sky_group_count; }
+  bool is_sky(size_t group) const { return group >= lamp_group_count(); }
+  // The row of `sky` of the first piece of a group of the sky.
+  uint32_t sky_first(size_t group) const { return piece_first[group] - static_cast<uint32_t>(pieces.size()); }
+  bool is_sun(size_t group) const { return is_sky(group) && sky.is_sun(sky_first(group)); }
   size_t size() const { return piece_first.empty() ? 0 : piece_first.size() - 1; }
   uint32_t piece_count(size_t group) const { return piece_first[group + 1] - piece_first[group]; }
   uint64_t all_pieces(size_t group) const { return ~uint64_t{0} >> (kGroupPiecesMax - piece_count(group)); }
 };
 // All faces that emit. Those that look wide from the surfaces that reflect are cut into cells.
-EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames);
+EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames, const Sky& sky = {},
+                                  SkyDetail detail = SkyDetail::kCoarse);
 
-// What each piece of a group would bring to a point if nothing were in its way, from its centre (W/m2,
-// luminance): written to strength[0 .. piece_count). Returns the sum.
+// What each piece of a group of lamps would bring to a point if nothing were in its way, from its centre
+// (W/m2, luminance): written to strength[0 .. piece_count). Returns the sum.
 float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGroups& groups, size_t group,
                      Vec3 point, Vec3 normal);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <span>
 
 namespace patchlight {
@@ -207,8 +208,34 @@ VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint
   });
 }
 
-void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::array<Vec3, 4>& corners,
+namespace {
+
+void add_piece(GroupLook& look, uint32_t piece, Rgb irradiance, float strength) {
+  look.irradiance += irradiance;
+  look.piece[look.count] = static_cast<uint8_t>(piece);
+  look.strength_until[look.count++] = look.strength += strength;
+}
+
+// Whatever is infinitely far away brings all points of a face the same.
+void find_unoccluded_sky(GroupLook& look, ElementPoints& from, const EmitterGroups& groups, uint32_t group,
+                         uint64_t pieces) {
+  const uint32_t first = groups.sky_first(group);
+  find_sky_irradiance(from.sky, groups.sky, from.surfaces.sky,
+                      from.surfaces.faces.normal[from.elements.face[from.row]], first,
+                      first + groups.piece_count(group));
+  look.irradiance = Rgb(0), look.strength = 0, look.count = 0;
+  for (uint64_t rest = pieces; rest != 0; rest &= rest - 1) {
+    const auto k = static_cast<uint32_t>(std::countr_zero(rest));
+    if (from.sky.strength[first + k] > 0)
+      add_piece(look, k, from.sky.irradiance[first + k], from.sky.strength[first + k]);
+  }
+}
+
+}  // namespace
+
+void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3, 4>& corners,
                      const EmitterGroups& groups, uint32_t group, uint64_t pieces) {
+  if (groups.is_sky(group)) return find_unoccluded_sky(look, from, groups, group, pieces);
   const FaceFrameTable& frames = from.surfaces.frames;
   const auto [face, code, level] = name_cell(from.elements, from.row);
   const Vec3 centre = cell_centre(frames, face, code, level), normal = from.surfaces.faces.normal[face];
@@ -232,13 +259,64 @@ void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::arra
       value = find_mean_factor(from, corners, emitter, usable) * luminance(emission);
     }
     if (value <= 0) continue;
-    look.irradiance += value / luminance(emission) * emission;
-    look.piece[look.count] = static_cast<uint8_t>(k);
-    look.strength_until[look.count++] = look.strength += value;
+    add_piece(look, k, value / luminance(emission) * emission, value);
   }
 }
 
 namespace {
+
+uint64_t make_group_key(const ElementPoints& from, uint32_t group) {
+  return mix_bits(from.key ^ (uint64_t{group} + 1) * 0x9e3779b97f4a7c15ull);
+}
+
+struct PickedPiece {
+  uint32_t entry;  // of the look
+  float width;     // its strength
+  Vec2 sample;     // for a place on it
+};
+// Quarters of all strength go with rows of the element's points, quarters of those with columns.
+PickedPiece pick_piece(const ElementPoints& from, uint32_t packet, uint32_t k, const GroupLook& look,
+                       uint64_t key) {
+  const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
+  const uint32_t stratum = 4 * ((k / 4) ^ (shuffle & 3)) + ((k % 4) ^ (shuffle >> 2 & 3));
+  const Vec2 inside = make_jitter(key, 2 * (packet * kPacketSize + k));
+  const Vec2 more = make_jitter(key, 2 * (packet * kPacketSize + k) + 1);
+  const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (k % 8)) & 15);
+  const float at = (static_cast<float>(stratum) + from.strata.place(part, inside.x)) / 16 * look.strength;
+  const auto* until = look.strength_until.data();
+  const uint32_t n = std::min(static_cast<uint32_t>(std::upper_bound(until, until + look.count, at) - until),
+                              look.count - 1);
+  return {n, until[n] - (n ? until[n - 1] : 0), more};
+}
+
+// Adds one packet of rays from the element's points to cells of the sky, or to the sun, and on for ever.
+void add_sky_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet,
+                        const GroupLook& look, const EmitterGroups& groups, uint32_t group) {
+  const Points& points = from.points[packet];
+  const Sky& sky = from.surfaces.sky;
+  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
+  const uint64_t key = make_group_key(from, group);
+  const uint32_t first = groups.sky_first(group);
+  const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
+  RayPacket rays;
+  float kernel[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    auto [n, width, sample] = pick_piece(from, packet, k, look, key);
+    const uint32_t row = first + look.piece[n];
+    // The disc of the sun is one piece: its strata are those of the element, shuffled.
+    if (groups.sky.is_sun(row))
+      sample = stratified_sample(key, packet, from.strata, (k / 4) ^ (shuffle & 3),
+                                 (k % 4) ^ (shuffle >> 2 & 3), k);
+    const auto [way, weight] = sample_sky(groups.sky, sky, row, sample);
+    // Over the density, as for lamps; the emission of a piece counts as even.
+    kernel[k] =
+        std::max(dot(way, normal), 0.0f) / length(way) * weight * luminance(groups.sky.emission[row]) / width;
+    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
+    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = std::numeric_limits<float>::infinity();
+  }
+  cast_pairs(sums, from, packet, rays, kernel);
+}
 
 // Adds one packet of pairs of the element's points and points of the group's pieces.
 void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
@@ -246,21 +324,11 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
   const Points& points = from.points[packet];
   const FaceFrameTable& frames = from.surfaces.frames;
   const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
-  // Quarters of all strength go with rows of the element's points, quarters of those with columns.
-  const uint64_t key = mix_bits(from.key ^ (uint64_t{group} + 1) * 0x9e3779b97f4a7c15ull);
-  const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
+  const uint64_t key = make_group_key(from, group);
   RayPacket rays;
   float kernel[kPacketSize];
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const uint32_t stratum = 4 * ((k / 4) ^ (shuffle & 3)) + ((k % 4) ^ (shuffle >> 2 & 3));
-    const Vec2 inside = make_jitter(key, 2 * (packet * kPacketSize + k));
-    const Vec2 more = make_jitter(key, 2 * (packet * kPacketSize + k) + 1);
-    const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (k % 8)) & 15);
-    const float at = (static_cast<float>(stratum) + from.strata.place(part, inside.x)) / 16 * look.strength;
-    const auto* until = look.strength_until.data();
-    const uint32_t n = std::min(
-        static_cast<uint32_t>(std::upper_bound(until, until + look.count, at) - until), look.count - 1);
-    const float before = n ? until[n - 1] : 0, width = until[n] - before;
+    const auto [n, width, more] = pick_piece(from, packet, k, look, key);
     const uint32_t piece = groups.piece_first[group] + look.piece[n];
     const Emitter& emitter = groups.pieces[piece];
     const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, {more.x, more.y});
@@ -286,7 +354,10 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
 VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
                                uint32_t group, uint32_t packet_count, uint32_t unmixed) {
   return sum_packets(from, packet_count, unmixed, [&](VisibilitySums& sums, uint32_t packet) {
-    add_visibility(sums, from, packet, look, groups, group);
+    if (groups.is_sky(group))
+      add_sky_visibility(sums, from, packet, look, groups, group);
+    else
+      add_visibility(sums, from, packet, look, groups, group);
   });
 }
 

@@ -51,6 +51,7 @@ struct ElementPoints {
   uint32_t made = 0;  // packets
   std::array<Points, kPacketsMax> points;
   std::array<uint32_t, kPacketsMax> open;  // those that do not lie inside a solid: a bit a point
+  SkyIrradiance sky;                       // of its face, once asked for
   ElementPoints(const Surfaces& all, const PatchTable& table, uint32_t packets)
       : surfaces(all), elements(table), strata(packets) {}
 };
@@ -86,7 +87,7 @@ struct GroupLook {
   std::array<uint8_t, kGroupPiecesMax> piece;
   std::array<float, kGroupPiecesMax> strength_until;  // summed up to each of them
 };
-void find_unoccluded(GroupLook& look, const ElementPoints& from, const std::array<Vec3, 4>& corners,
+void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3, 4>& corners,
                      const EmitterGroups& groups, uint32_t group, uint64_t pieces);
 
 // The same as above for a group: rays go to its pieces by what they bring.

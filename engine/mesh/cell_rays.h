@@ -19,7 +19,8 @@ enum RayPurpose : uint32_t {
   kShareRays,
   kLeakRays,
   kSightRays,
-  kReachRays
+  kReachRays,
+  kSkyRays
 };
 
 // Directions: columns x rows strata of the unit square, 4 x 4 of which go into one packet. Origins take the

@@ -113,8 +113,9 @@ void check_faces(const FaceTable& faces) {
   }
 }
 
-std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces) {
+std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces, Sky sky) {
   check_faces(faces);
+  check_sky(sky);
   FaceFrameTable frames = make_face_frames(faces);
   FaceLinkTable links = make_face_links(faces);
   FaceLinkTable smooth_links = make_smooth_links(links, faces);
@@ -126,7 +127,8 @@ std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces) {
                                                             std::move(smooth_links),
                                                             std::move(tracer),
                                                             scale,
-                                                            {}});
+                                                            {},
+                                                            std::move(sky)});
   surfaces->reach = find_reach(*surfaces);
   return surfaces;
 }

@@ -1,6 +1,8 @@
-// What a scene's faces are to the solver: checked, with all that is derived from them. It never changes.
+// What a scene's faces and its sky are to the solver: checked, with all that is derived from them. It never
+// changes.
 #pragma once
 
+#include "engine/sky.h"
 #include "engine/tables.h"
 #include "engine/trace/tracer.h"
 
@@ -16,12 +18,14 @@ struct Surfaces {
   Tracer tracer;
   float scale = 0;           // lengths: find_scene_scale()
   std::vector<float> reach;  // a row a face, lengths: the same for what lies before it, at most `scale`
+  Sky sky;
 };
 
 // Throws std::invalid_argument, with the column and the row, where faces are not what tables.h says.
 void check_faces(const FaceTable& faces);
 
-// Checks the faces and prepares them. Throws what check_faces() and make_tracer() throw.
-std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces);
+// Checks the faces and the sky and prepares them. Throws what check_faces(), check_sky() and make_tracer()
+// throw.
+std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces, Sky sky = {});
 
 }  // namespace patchlight

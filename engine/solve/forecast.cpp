@@ -21,6 +21,8 @@ constexpr double kKeptRay = 0.001;   // of a row that is kept, in each pass
 constexpr double kElement = 1.5;     // split, compared and joined
 constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
 
+constexpr double kSkyRaysOfRow = 2000, kSkyRaysOfElement = 400;  // at cells of the sky
+
 constexpr double kPatchesOfRooms = 12'000;  // beside one a face
 // Of the square root of the scene's area: smaller faces of meshes share rows.
 constexpr double kSharedSpan = 0.01;
@@ -84,13 +86,15 @@ uint64_t count_elements_most(const FaceTable& faces, const SolverSettings& setti
 
 }  // namespace
 
-Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches) {
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches,
+                        const Sky& sky) {
   const auto face_count = static_cast<double>(faces.size());
   const auto start = static_cast<double>(starting_patches);
   const double budget = std::max(static_cast<double>(settings.patch_count_max), face_count);
   const double rays = make_ray_grid(count_row_rays(settings)).ray_count(), depth = cube_of_depth(faces);
   const double row_ray = kRowRay + kRowRayOfDepth * depth;
-  const Counts counts = count_faces(faces);
+  Counts counts = count_faces(faces);
+  if (!sky.is_dark()) counts.are_aimed = true;
   Forecast forecast;
   const double factor = find_size_factor(settings);
   const double more = std::min((budget - face_count) / 2, kPatchesOfRooms / (factor * factor));
@@ -98,7 +102,9 @@ Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, 
   forecast.rows = counts.rows + more;
   forecast.elements = forecast_elements(start, forecast.patches, counts, settings);
   const double row_rays = forecast.rows * rays;
-  const double lamp_rays = forecast_lamp_rays(forecast.elements, counts, rays);
+  const double lamp_rays =
+      forecast_lamp_rays(forecast.elements, counts, rays) +
+      (sky.is_dark() ? 0 : kSkyRaysOfRow * forecast.rows + kSkyRaysOfElement * forecast.elements);
   const double later_passes = std::max(0.0, settings.pass_count_max - 2.0);
   forecast.rays = row_rays * (1 + kAimedShare) + lamp_rays;
   forecast.seconds = 1e-6 * (row_rays * row_ray * (1 + kAimedShare) +

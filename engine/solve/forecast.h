@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/settings.h"
+#include "engine/sky.h"
 #include "engine/tables.h"
 
 namespace patchlight {
@@ -16,7 +17,8 @@ struct Forecast {
   double seconds = 0;
   double bytes = 0;
 };
-Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches);
+Forecast forecast_solve(const FaceTable& faces, const SolverSettings& settings, uint64_t starting_patches,
+                        const Sky& sky = {});
 
 // What the solvers `matrix` and `shooting` take beside that; arguments as forecast_solve(). Very rough:
 // seconds depend on what stands between the elements, and on how much they reflect.

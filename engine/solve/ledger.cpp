@@ -13,6 +13,9 @@ namespace patchlight {
 namespace {
 
 constexpr uint32_t kEmissionRayCount = 1u << 16;  // for all lamps together
+// For the sky and for the sun, from all patches together, and the least and most from one.
+constexpr double kSkyRayCount = 1 << 20, kSunRayCount = 1 << 19;
+constexpr double kSkyRaysLeast = 16, kSkyRaysMost = 16384, kSunRaysLeast = 64;
 
 struct Shares {
   double nothing = 0, back = 0;  // of what a cell sends; the rest lands on lit sides
@@ -92,6 +95,93 @@ std::vector<CellName> find_senders(const Solution& s) {
   return senders;
 }
 
+// What a patch receives of the sky, from rays of its own in all directions: none of the cells by which
+// elements look at it. W/m2, mean over its whole area.
+DRgb measure_sky(const CellRays& rays, const Surfaces& surfaces) {
+  DRgb sum(0);
+  HitPacket packet;
+  for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
+    make_ray_packet(packet, rays, surfaces.frames, tile);
+    find_hits(surfaces.tracer, packet, 0xffff);
+    const RayPacket& r = packet.ray;
+    for (uint32_t k = 0; k < kPacketSize; ++k)
+      if (packet.face[k] == kNone)
+        sum += DRgb(find_sky_emission(surfaces.sky, {r.direction_x[k], r.direction_y[k], r.direction_z[k]}));
+  }
+  return sum / double(rays.grid.ray_count());
+}
+
+// The same of the sun: rays all over its disc.
+DRgb measure_sun(const CellRays& rays, const Surfaces& surfaces) {
+  const Sky& sky = surfaces.sky;
+  const Frame frame = make_frame(sky.sun_direction);
+  const float sine = std::sin(sky.sun_radius);
+  double sum = 0;
+  HitPacket packet;
+  for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
+    make_ray_packet(packet, rays, surfaces.frames, tile);
+    RaySamples samples;
+    make_ray_samples(samples, rays.key, rays.grid, tile);
+    RayPacket& r = packet.ray;
+    uint32_t active = 0;
+    double weight[kPacketSize];
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      const Vec3 disc = make_cosine_direction(samples.direction_x[k], samples.direction_y[k]);
+      const float x = disc.x * sine, y = disc.y * sine, along = std::sqrt(1 - x * x - y * y);
+      const Vec3 way = x * frame.tangent + y * frame.bitangent + along * frame.normal;
+      r.direction_x[k] = way.x, r.direction_y[k] = way.y, r.direction_z[k] = way.z;
+      weight[k] = double{dot(way, rays.frame.normal)} / double{along};
+      active |= (weight[k] > 0 ? 1u : 0u) << k;
+    }
+    active &= ~find_blocked(surfaces.tracer, r, active);
+    for (uint32_t k = 0; k < kPacketSize; ++k)
+      if (active >> k & 1u) sum += weight[k];
+  }
+  return sum / rays.grid.ray_count() * double{sine} * double{sine} * DRgb(sky.sun_emission);
+}
+
+// What enters the scene from the sky and the sun and strikes a lit side, W. What strikes the outside of a
+// room is no part of it.
+DRgb measure_sky_power(const Solution& s) {
+  const Surfaces& surfaces = *s.surfaces;
+  const Sky& sky = surfaces.sky;
+  const PatchTable& patches = s.mesh.patches;
+  if (sky.is_dark()) return DRgb(0);
+  // Where rows left the scene here and met something there, more rays are worth more.
+  std::vector<double> sky_share(patches.size(), 0), sun_share(patches.size(), 0);
+  double sky_sum = 0, sun_sum = 0;
+  for (size_t p = 0; p < patches.size(); ++p) {
+    if (patches.exposed[p] == 0) continue;
+    const size_t receiver = s.transport.receivers.receiver_of[p];
+    const double open = double(s.transport.hits.nothing[receiver]) / s.transport.hits.ray_count;
+    const double cosine = double{dot(surfaces.faces.normal[patches.face[p]], sky.sun_direction)};
+    if (sky.is_lit() || sky.has_ground())
+      sky_sum += sky_share[p] = double{patches.area[p]} * std::sqrt(open * (1 - open) + 1e-3);
+    if (sky.has_sun() && cosine > -double{sky.sun_radius})
+      sun_sum += sun_share[p] = double{patches.area[p]} * std::max(cosine, 0.02);
+  }
+  std::vector<DRgb> power(patches.size(), DRgb(0));
+  for_rows(patches.size(), 16, [&](size_t begin, size_t end) {
+    for (size_t p = begin; p < end; ++p) {
+      const auto make_rays = [&](double wanted, double least) {
+        const auto count = static_cast<uint32_t>(std::clamp(wanted, least, kSkyRaysMost));
+        return make_cell_rays(surfaces.faces, name_cell(patches, static_cast<uint32_t>(p)), kSkyRays,
+                              s.settings.seed, make_ray_grid(count));
+      };
+      const double area = double{patches.area[p]};
+      if (sky_share[p] > 0)
+        power[p] +=
+            area * measure_sky(make_rays(kSkyRayCount * sky_share[p] / sky_sum, kSkyRaysLeast), surfaces);
+      if (sun_share[p] > 0)
+        power[p] +=
+            area * measure_sun(make_rays(kSunRayCount * sun_share[p] / sun_sum, kSunRaysLeast), surfaces);
+    }
+  });
+  DRgb sum(0);
+  for (const DRgb& value : power) sum += value;
+  return sum;
+}
+
 }  // namespace
 
 PowerLedger find_power_ledger(const Solution& s) {
@@ -100,6 +190,8 @@ PowerLedger find_power_ledger(const Solution& s) {
   PowerLedger ledger;
   for (uint32_t f = 0; f < faces.size(); ++f)
     ledger.emitted += double{cell_area(s.surfaces->frames, f, 0, 0)} * DRgb(faces.emission[f]);
+  const double lamp_sum = sum_channels(ledger.emitted);
+  ledger.emitted += measure_sky_power(s);
   const double emitted_sum = sum_channels(ledger.emitted);
   // Emission is sent once the first pass has run.
   if (s.log.passes.empty()) {
@@ -109,7 +201,7 @@ PowerLedger find_power_ledger(const Solution& s) {
   for (const CellName& sender : find_senders(s)) {
     const double area = double{cell_area(s.surfaces->frames, sender.face, sender.cell, sender.level)};
     const DRgb power = area * DRgb(faces.emission[sender.face]);
-    const double share = sum_channels(power) / std::max(emitted_sum, 1e-300);
+    const double share = sum_channels(power) / std::max(lamp_sum, 1e-300);
     const double rays = std::clamp(share * kEmissionRayCount, 256.0, double{kEmissionRayCount});
     const Shares shares = find_emission_shares(make_cell_rays(faces, sender, kEmissionRays, s.settings.seed,
                                                               make_ray_grid(static_cast<uint32_t>(rays))),

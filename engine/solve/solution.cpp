@@ -43,6 +43,34 @@ Rows get_rows(const Solution& s) {
           s.transport.hits};
 }
 
+DirectRays final_rays(const SolverSettings& settings) {
+  const uint32_t rays = count_row_rays(settings);
+  return {std::max(rays / 8, 16u), std::max(rays / 2, 16u), std::max(rays, 16u)};
+}
+
+std::vector<Rgb> find_sky_light(Solution& s) {
+  const EmitterGroups& groups = s.transport.groups;
+  if (groups.sky_group_count == 0) return {};
+  if (groups.lamp_group_count() == 0) return s.light.direct;
+  SightTable sights;
+  sights.first.push_back(0);
+  for (size_t r = 0; r + 1 < s.transport.sights.first.size(); ++r) {
+    for (uint32_t k = s.transport.sights.first[r]; k < s.transport.sights.first[r + 1]; ++k) {
+      if (!groups.is_sky(s.transport.sights.group[k])) continue;
+      sights.group.push_back(s.transport.sights.group[k]);
+      sights.pieces.push_back(s.transport.sights.pieces[k]);
+      sights.clear.push_back(s.transport.sights.clear[k]);
+    }
+    sights.first.push_back(static_cast<uint32_t>(sights.group.size()));
+  }
+  std::vector<Rgb> light(s.mesh.elements.size());
+  std::vector<float> error(light.size());
+  s.log.direct_ray_count += find_direct({light, error}, all_rows(light.size()),
+                                        {*s.surfaces, s.mesh, s.transport.receivers, groups, sights},
+                                        final_rays(s.settings), s.settings.seed);
+  return light;
+}
+
 std::vector<Rgb> find_patch_means(const Solution& s, std::span<const Rgb> column) {
   std::vector<Rgb> means(s.mesh.patches.size(), Rgb(0));
   for_rows(means.size(), 256, [&](size_t begin, size_t end) {

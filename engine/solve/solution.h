@@ -3,6 +3,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
+#include "engine/light/direct.h"
 #include "engine/mesh/vertices.h"
 #include "engine/solve/solve.h"
 #include "engine/transport/rows.h"
@@ -16,6 +17,13 @@ constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 0, .border_steps
 
 // The rows of the patches, for kernels that gather.
 Rows get_rows(const Solution& solution);
+
+// Rays for the direct light of an element of the final mesh.
+DirectRays final_rays(const SolverSettings& settings);
+
+// Irradiance of each element from the sky and the sun alone, W/m2; empty where they are dark. Raises the
+// log's count of rays where they were not cast before.
+std::vector<Rgb> find_sky_light(Solution& solution);
 
 // The patches as a surface.
 inline LeafSurface patch_surface(const Solution& s) {

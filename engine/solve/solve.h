@@ -45,7 +45,8 @@ struct PassReport {
   double seconds = 0;
 };
 
-// Measured, not made to fit: closure_error = |emitted - absorbed - escaped - unshot| / emitted.
+// Measured, not made to fit: closure_error = |emitted - absorbed - escaped - unshot| / emitted. Of the sky
+// and the sun, what first strikes a lit side counts as emitted.
 struct PowerLedger {
   DRgb emitted{0}, absorbed{0}, escaped{0}, unshot{0};
   double closure_error = 0;

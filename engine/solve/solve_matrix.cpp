@@ -31,11 +31,12 @@ FaceTable make_element_faces(const PatchTable& elements, const FaceTable& faces,
   return cells;
 }
 
-// One channel of the elements' irradiance H, from A H = X (E + rho H), A the exposed areas and X the exchange
-// areas A_i F_ij: with r = sqrt(rho / A) and y = sqrt(rho A) H the matrix I - r X r is symmetric, and
-// positive definite since rows of X sum to A at most. H = X (E + r y) / A then mends rounding, too.
+// One channel of the elements' irradiance H, from A H = X (E + rho H) + A S, A the exposed areas, X the
+// exchange areas A_i F_ij and S what the sky brings: with r = sqrt(rho / A) and y = sqrt(rho A) H the matrix
+// I - r X r is symmetric, and positive definite since rows of X sum to A at most. H = X (E + r y) / A + S
+// then mends rounding, too.
 struct Channel {
-  std::vector<double> emission, root,
+  std::vector<double> emission, sky, root,
       irradiance;  // root: r; 0 for a buried element, which takes part in nothing
 };
 
@@ -59,20 +60,23 @@ bool solve_channel(Channel& channel, std::vector<double>& matrix, const FactorTa
   });
   std::vector<double> y, sent = channel.emission;
   multiply(y, sent);
-  for (size_t i = 0; i < n; ++i) y[i] *= channel.root[i];
+  for (size_t i = 0; i < n; ++i) y[i] = channel.root[i] * (y[i] + area[i] * channel.sky[i]);
   if (!solve_positive_definite(matrix, y)) return false;
   for (size_t i = 0; i < n; ++i) sent[i] += channel.root[i] * y[i];
   multiply(channel.irradiance, sent);
-  for (size_t i = 0; i < n; ++i) channel.irradiance[i] = area[i] > 0 ? channel.irradiance[i] / area[i] : 0;
+  for (size_t i = 0; i < n; ++i)
+    channel.irradiance[i] = area[i] > 0 ? channel.irradiance[i] / area[i] + channel.sky[i] : 0;
   return true;
 }
 
+// sky: a row an element, or empty.
 Channel make_channel(const PatchTable& elements, std::span<const double> area, const FaceTable& faces,
-                     int k) {
+                     std::span<const Rgb> sky, int k) {
   Channel channel;
   for (size_t row = 0; row < elements.size(); ++row) {
     const uint32_t face = elements.face[row];
     channel.emission.push_back(double{faces.emission[face][k]});
+    channel.sky.push_back(sky.empty() ? 0 : double{sky[row][k]});
     channel.root.push_back(area[row] > 0 ? std::sqrt(double{faces.reflectance[face][k]} / area[row]) : 0);
   }
   return channel;
@@ -96,6 +100,7 @@ const PassReport& solve_matrix(Solution& s) {
   const FaceTable& faces = s.surfaces->faces;
   const size_t n = s.mesh.elements.size();
   const FactorTable factors = find_element_factors(s);
+  const std::vector<Rgb> sky = find_sky_light(s);
   s.log.trace_seconds += watch.lap();
   s.log.factor_count += uint64_t{n} * n;
   s.log.transport_ray_count += factors.ray_count;
@@ -104,8 +109,9 @@ const PassReport& solve_matrix(Solution& s) {
   for (size_t i = 0; i < n; ++i) area[i] = factors.area[i] * double{s.mesh.elements.exposed[i]};
   Channel before;
   for (int k = 0; k < 3; ++k) {
-    Channel channel = make_channel(s.mesh.elements, area, faces, k);
-    if (k > 0 && channel.root == before.root && channel.emission == before.emission)
+    Channel channel = make_channel(s.mesh.elements, area, faces, sky, k);
+    if (k > 0 && channel.root == before.root && channel.emission == before.emission &&
+        channel.sky == before.sky)
       channel.irradiance = before.irradiance;
     else if (!solve_channel(channel, matrix, factors, area))
       throw std::domain_error("the system of equations has no solution");

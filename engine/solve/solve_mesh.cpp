@@ -57,12 +57,22 @@ void find_element_patches(Solution& s) {
 
 // Rays a lamp on the starting mesh, whose elements may be large beside a spot of light, while the mesh is
 // refined, and once it is final.
-constexpr DirectRays kStartRays{64, 64};
+constexpr DirectRays kStartRays{64, 64, 64};
 DirectRays round_rays(const SolverSettings& settings) {
-  return {16, std::max(count_row_rays(settings) / 4, 16u)};
+  const uint32_t mixed = std::max(count_row_rays(settings) / 4, 16u);
+  return {16, mixed, mixed};
 }
-DirectRays final_rays(const SolverSettings& settings) {
-  return {std::max(count_row_rays(settings) / 8, 16u), std::max(count_row_rays(settings) / 2, 16u)};
+
+// Through windows the sky is seen in pieces as small as they are: fine cells, where most rows stay inside.
+SkyDetail pick_sky_detail(const Solution& s) {
+  constexpr double kOpen = 0.2;
+  double open = 0, area = 0;
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
+    const uint32_t receiver = s.transport.receivers.receiver_of[p];
+    open += double{s.mesh.patches.area[p]} * s.transport.hits.nothing[receiver] / s.transport.hits.ray_count;
+    area += double{s.mesh.patches.area[p]};
+  }
+  return open < kOpen * area ? SkyDetail::kFine : SkyDetail::kCoarse;
 }
 
 void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays) {
@@ -341,7 +351,8 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
                                   find_patch_sizes(s.surfaces->faces, s.surfaces->frames, settings));
   find_element_patches(s);
   s.log.split_seconds += watch.lap();
-  s.transport.groups = make_emitter_groups(s.surfaces->faces, s.surfaces->frames);
+  s.transport.groups =
+      make_emitter_groups(s.surfaces->faces, s.surfaces->frames, s.surfaces->sky, pick_sky_detail(s));
   s.transport.aiming = find_aiming(*s.surfaces, s.transport.groups, s.mesh.patches, s.transport.receivers);
   s.transport.sights = find_sights(get_rows(s).by, s.transport.groups, s.transport.aiming, ray_count);
   const size_t count = s.mesh.elements.size();

@@ -50,14 +50,39 @@ void receive_shot(Solution& s, std::span<const Rgb> irradiance) {
   });
 }
 
+// What is there once the elements have received: added to the log.
+const PassReport& finish_shot(Solution& s, PassReport report, std::span<const Rgb> irradiance,
+                              Stopwatch watch) {
+  const FaceTable& faces = s.surfaces->faces;
+  report_added(report, s,
+               [&](size_t row) { return faces.reflectance[s.mesh.elements.face[row]] * irradiance[row]; });
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p) report.unshot_power += find_unshot_power(s, p);
+  s.shooting->power += sum_channels(report.added_power);
+  report.seconds = watch.lap();
+  s.log.solve_seconds += report.seconds;
+  return s.log.passes.emplace_back(report);
+}
+
 }  // namespace
 
 const PassReport& advance_shot(Solution& s) {
   const WorkersScope scope(s.workers);
   Stopwatch watch;
   if (!s.mesh.frozen) freeze(s);
-  if (!s.shooting) s.shooting = {std::vector<uint32_t>(s.mesh.patches.size(), 0)};
+  const bool is_first = !s.shooting;
+  if (is_first) s.shooting = {std::vector<uint32_t>(s.mesh.patches.size(), 0)};
   const FaceTable& faces = s.surfaces->faces;
+  PassReport report;
+  report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
+  // The first shot is that of the sky.
+  if (is_first && !s.surfaces->sky.is_dark()) {
+    const uint64_t rays_before = s.log.direct_ray_count;
+    const std::vector<Rgb> light = find_sky_light(s);
+    receive_shot(s, light);
+    s.log.factor_count += light.size() * s.transport.groups.sky_group_count;
+    report.ray_count = s.log.direct_ray_count - rays_before;
+    return finish_shot(s, report, light, watch);
+  }
   const uint32_t shooter = pick_shooter(s);
   const Shot shot{make_emitter(faces, s.surfaces->frames, name_cell(s.mesh.patches, shooter)),
                   s.mesh.patches.unshot[shooter], s.log.passes.size(), s.settings.seed};
@@ -65,8 +90,6 @@ const PassReport& advance_shot(Solution& s) {
   for (uint32_t row = s.mesh.element_first[shooter]; row < s.mesh.element_first[shooter + 1]; ++row)
     s.mesh.elements.unshot[row] = Rgb(0);
 
-  PassReport report;
-  report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
   std::vector<Rgb> irradiance(s.mesh.elements.size());
   const ShotCounts counts =
       shoot(irradiance, shot, s.mesh.elements, *s.surfaces, {.bright = kBrightShot * s.light.mean_radiosity});
@@ -76,13 +99,7 @@ const PassReport& advance_shot(Solution& s) {
   s.log.factor_count += counts.factors;
   s.log.transport_ray_count += counts.rays;
   report.ray_count = counts.rays;
-  report_added(report, s,
-               [&](size_t row) { return faces.reflectance[s.mesh.elements.face[row]] * irradiance[row]; });
-  for (size_t p = 0; p < s.mesh.patches.size(); ++p) report.unshot_power += find_unshot_power(s, p);
-  s.shooting->power += sum_channels(report.added_power);
-  report.seconds = watch.lap();
-  s.log.solve_seconds += report.seconds;
-  return s.log.passes.emplace_back(report);
+  return finish_shot(s, report, irradiance, watch);
 }
 
 bool is_shot(const Solution& s) {

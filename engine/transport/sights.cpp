@@ -9,6 +9,8 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <limits>
+#include <span>
 
 namespace patchlight {
 namespace {
@@ -18,6 +20,9 @@ namespace {
 constexpr double kEmitterSkyMax = 0.8;
 // Rays from a receiver at a group: at first, and in all where some arrive and some do not.
 constexpr uint32_t kFirstPackets = 4, kMixedPackets = 16;
+// Rays at a group of the sky by which is told whether anything of it, or of one beside it, may be seen.
+constexpr uint32_t kGlancePackets = 1;
+constexpr size_t kFewGroups = 8;
 // A group that gives less than this share of a receiver's light, blockers aside, gets the first rays only.
 constexpr float kWeakShare = 0.03f;
 
@@ -26,11 +31,25 @@ struct Look {
   uint32_t rays = 0, arrived = 0;
 };
 
+// A point on a piece, just before it, or for the sky a direction; and whether the piece faces the start.
+struct Aim {
+  Vec3 way;
+  bool faces;
+  float far;  // in lengths of the way
+};
+Aim aim_at_lamp(const Emitter& emitter, const FaceFrameTable& frames, Vec3 start, Vec2 sample) {
+  const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, sample);
+  const Vec3 point = face_point(frames, emitter.face, uv);
+  const Vec3 way = point + ray_offset(start, point) * emitter.normal - start;
+  return {way, dot(way, emitter.normal) < 0, 1};
+}
+
 // One packet of rays from a receiver at the pieces of a group in turn.
 void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const EmitterGroups& groups,
           size_t group, uint64_t key, uint32_t packet) {
   const FaceFrameTable& frames = from.surfaces.frames;
   const uint32_t first = groups.piece_first[group], count = groups.piece_count(group);
+  const bool sky = groups.is_sky(group);
   RayPacket rays;
   std::array<uint32_t, kPacketSize> piece;
   uint32_t active = 0;
@@ -43,16 +62,16 @@ void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const 
     const Origin origin = find_origin(from, receiver, place);
     // A prime strides through all of them, but through no multiple of itself.
     piece[k] = (index * (count == 37 ? 41u : 37u) + packet) % count;
-    const Emitter& emitter = groups.pieces[first + piece[k]];
-    const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, b);
     const Vec3 start = origin.point + ray_offset(origin.point) * origin.normal;
-    const Vec3 point = face_point(frames, emitter.face, uv);
-    const Vec3 way = point + ray_offset(start, point) * emitter.normal - start;
+    const auto [way, faces, far] =
+        sky ? Aim{sample_sky(groups.sky, from.surfaces.sky, groups.sky_first(group) + piece[k], b).direction,
+                  true, std::numeric_limits<float>::infinity()}
+            : aim_at_lamp(groups.pieces[first + piece[k]], frames, start, b);
     any_normal = origin.normal;
-    if (dot(way, origin.normal) > 0 && dot(way, emitter.normal) < 0) active |= 1u << k;
+    if (dot(way, origin.normal) > 0 && faces) active |= 1u << k;
     rays.origin_x[k] = start.x, rays.origin_y[k] = start.y, rays.origin_z[k] = start.z;
     rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
-    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+    rays.near_distance[k] = 0, rays.far_distance[k] = far;
   }
   if (buried && active) active &= ~find_buried(from.surfaces, make_frame(any_normal), rays, active);
   if (!active) return;
@@ -61,6 +80,50 @@ void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const 
     if (reached >> k & 1u) sum.reached |= uint64_t{1} << piece[k];
   sum.rays += static_cast<uint32_t>(std::popcount(active));
   sum.arrived += static_cast<uint32_t>(std::popcount(reached));
+}
+
+// What a group of the sky brings to a receiver at most.
+float find_sky_strength(SkyIrradiance& sky, const EmitterGroups& groups, size_t group,
+                        const Surfaces& surfaces, Vec3 normal) {
+  const uint32_t first = groups.sky_first(group), last = first + groups.piece_count(group);
+  find_sky_irradiance(sky, groups.sky, surfaces.sky, normal, first, last);
+  float sum = 0;
+  for (uint32_t row = first; row < last; ++row) sum += sky.strength[row];
+  return sum;
+}
+
+// Of a piece of which little is seen no ray may have told: those beside one that is seen count as seen, too.
+// seen: of one receiver, a row a group.
+void widen(std::span<uint64_t> widened, std::span<const uint64_t> seen, const EmitterGroups& groups) {
+  for (size_t g = 0; g < groups.size(); ++g) widened[g] = 0;
+  for (size_t g = 0; g < groups.size(); ++g)
+    for (uint64_t rest = seen[g]; rest != 0; rest &= rest - 1)
+      widened[g] |= groups.beside[groups.piece_first[g] + static_cast<uint32_t>(std::countr_zero(rest))];
+  // Cells of the sky also lie beside those of other groups, which are of 64 each.
+  for (size_t g = groups.lamp_group_count(); g < groups.size(); ++g) {
+    if (groups.is_sun(g)) continue;
+    for (uint64_t rest = seen[g]; rest != 0; rest &= rest - 1) {
+      const uint32_t row = groups.sky_first(g) + static_cast<uint32_t>(std::countr_zero(rest));
+      for (uint32_t k = groups.sky.beside_first[row]; k < groups.sky.beside_first[row + 1]; ++k)
+        widened[groups.lamp_group_count() + groups.sky.beside[k] / kGroupPiecesMax] |=
+            uint64_t{1} << groups.sky.beside[k] % kGroupPiecesMax;
+    }
+  }
+}
+
+// Groups of the sky beside each of them, itself included; those of lamps have none.
+std::vector<std::vector<size_t>> find_groups_beside(const EmitterGroups& groups) {
+  std::vector<std::vector<size_t>> beside(groups.size());
+  for (size_t g = groups.lamp_group_count(); g < groups.size(); ++g) {
+    std::vector<size_t>& list = beside[g];
+    for (uint32_t row = groups.sky_first(g); row < groups.sky_first(g) + groups.piece_count(g); ++row)
+      for (uint32_t k = groups.sky.beside_first[row]; k < groups.sky.beside_first[row + 1]; ++k)
+        list.push_back(groups.lamp_group_count() + groups.sky.beside[k] / kGroupPiecesMax);
+    list.push_back(g);
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return beside;
 }
 
 // Receivers of patches beside the patches of each receiver: CSR.
@@ -131,32 +194,68 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
   const size_t count = receivers.size(), group_count = groups.size();
   std::vector<uint64_t> seen(count * group_count, 0);
   std::vector<uint8_t> clear(count * group_count, 0);
+  const std::vector<std::vector<size_t>> beside_group = find_groups_beside(groups);
   std::atomic<uint64_t> cast{0};
   for_rows(count, 32, [&](size_t begin, size_t end) {
     std::array<float, kGroupPiecesMax> strength;
+    SkyIrradiance sky;
+    std::vector<Look> looks;
+    std::vector<uint8_t> glimpsed;
     std::vector<float> sums(group_count);
     uint64_t rays = 0;
     for (auto r = static_cast<uint32_t>(begin); r < end; ++r) {
       const uint32_t patch = receivers.patch[receivers.first[r]], face = from.patches.face[patch];
-      if (!aiming[faces.polygon[face]]) continue;
-      float exposed = 0, all = 0;
+      // All look at the sky: rows tell nothing of it.
+      const size_t group_first = aiming[faces.polygon[face]] ? 0 : groups.lamp_group_count();
+      if (group_first == group_count) continue;
+      float exposed = 0, all = 0, sky_sum = 0;
       for (uint32_t k = receivers.first[r]; k < receivers.first[r + 1]; ++k)
         exposed = std::max(exposed, from.patches.exposed[receivers.patch[k]]);
       if (exposed == 0) continue;
       const bool buried = exposed < 1;
-      for (size_t g = 0; g < group_count; ++g)
-        all += sums[g] = find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
-      for (size_t g = 0; g < group_count; ++g) {
+      for (size_t g = group_first; g < group_count; ++g) {
+        sums[g] = groups.is_sky(g)
+                      ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
+                      : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
+        all += sums[g];
+        if (groups.is_sky(g) && !groups.is_sun(g)) sky_sum += sums[g];
+      }
+      const bool single = receivers.first[r + 1] - receivers.first[r] == 1;
+      looks.assign(group_count, {});
+      const auto look_at = [&](size_t g, uint32_t first, uint32_t last) {
         const uint64_t key = mix_bits(
             make_ray_key(from.seed, face, from.patches.cell[patch], from.patches.level[patch], kSightRays) +
             g);
-        Look sum;
-        for (uint32_t packet = 0; packet < kFirstPackets; ++packet)
-          look(sum, from, r, buried, groups, g, key, packet);
-        const bool weak = sums[g] < kWeakShare * all;
-        if (!weak && sum.rays > 0 && sum.arrived < sum.rays)
-          for (uint32_t packet = kFirstPackets; packet < kMixedPackets; ++packet)
-            look(sum, from, r, buried, groups, g, key, packet);
+        for (uint32_t packet = first; packet < last; ++packet)
+          look(looks[g], from, r, buried, groups, g, key, packet);
+      };
+      const auto is_below = [&](size_t g) { return groups.is_sky(g) && single && sums[g] == 0; };
+      // A glance at all of the sky, for most of it is hidden from most; then at what may be seen.
+      for (size_t g = std::max(group_first, groups.lamp_group_count()); g < group_count; ++g)
+        if (!is_below(g)) look_at(g, 0, kGlancePackets);
+      const auto is_glimpsed = [&](size_t g) { return glimpsed[g] != 0; };
+      glimpsed.assign(group_count, 0);
+      size_t glimpsed_count = 0;
+      for (size_t g = group_first; g < group_count; ++g) {
+        glimpsed[g] = looks[g].arrived > 0;
+        glimpsed_count += glimpsed[g];
+      }
+      for (size_t g = group_first; g < group_count; ++g) {
+        const bool sun = groups.is_sun(g);
+        if (is_below(g) || (groups.is_sky(g) && !sun &&
+                            std::none_of(beside_group[g].begin(), beside_group[g].end(), is_glimpsed))) {
+          rays += looks[g].rays;
+          continue;
+        }
+        // A spot of the sun may be small on a large patch, and is bright.
+        const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
+        look_at(g, groups.is_sky(g) ? kGlancePackets : 0, first_packets);
+        const Look& sum = looks[g];
+        // Through a window few groups of the sky are seen, and all of them count.
+        const bool weak = groups.is_sky(g) && !sun
+                              ? glimpsed_count > kFewGroups && sums[g] < kWeakShare * sky_sum
+                              : sums[g] < kWeakShare * all;
+        if (!weak && sum.rays > 0 && sum.arrived < sum.rays) look_at(g, first_packets, kMixedPackets);
         rays += sum.rays;
         seen[r * group_count + g] = sum.reached;
         clear[r * group_count + g] = sum.rays > 0 && sum.arrived == sum.rays && !buried;
@@ -181,17 +280,15 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
   });
   SightTable sights;
   sights.first.push_back(0);
+  std::vector<uint64_t> widened(group_count);
   for (size_t r = 0; r < count; ++r) {
+    widen(widened, std::span(joined).subspan(r * group_count, group_count), groups);
     for (size_t g = 0; g < group_count; ++g) {
-      const size_t at = r * group_count + g;
-      if (!joined[at]) continue;
-      // Of a piece of which little is seen no ray may have told.
-      uint64_t pieces = 0;
-      for (uint64_t rest = joined[at]; rest != 0; rest &= rest - 1)
-        pieces |= groups.beside[groups.piece_first[g] + static_cast<uint32_t>(std::countr_zero(rest))];
+      if (!widened[g]) continue;
+      const bool is_clear = all_clear[r * group_count + g] != 0;
       sights.group.push_back(static_cast<uint32_t>(g));
-      sights.clear.push_back(all_clear[at]);
-      sights.pieces.push_back(all_clear[at] ? groups.all_pieces(g) : pieces);
+      sights.clear.push_back(is_clear);
+      sights.pieces.push_back(is_clear ? groups.all_pieces(g) : widened[g]);
     }
     sights.first.push_back(static_cast<uint32_t>(sights.group.size()));
   }

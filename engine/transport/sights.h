@@ -12,7 +12,8 @@ namespace patchlight {
 std::vector<uint8_t> find_aiming(const Surfaces& surfaces, const EmitterGroups& groups,
                                  const PatchTable& patches, const ReceiverTable& receivers);
 
-// Looks from all receivers at all groups. What a receiver's neighbours see it may see, too. Raises ray_count.
+// Looks from all receivers at all groups; those that do not aim look at the sky alone. What a receiver's
+// neighbours see it may see, too. Raises ray_count.
 SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::span<const uint8_t> aiming,
                        uint64_t& ray_count);
 

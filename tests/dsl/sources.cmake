@@ -20,6 +20,7 @@ set(DSL_TEST_SOURCES
   dsl/scene/readmes.cpp
   dsl/scene/settings.cpp
   dsl/scene/sheets.cpp
+  dsl/scene/sky.cpp
   dsl/scene/suspicious.cpp
   dsl/scene/wrong_records.cpp
   dsl/scene/wrong_scenes.cpp

@@ -1,4 +1,5 @@
 set(ENGINE_TEST_SOURCES
+  engine/sky.cpp
   engine/base/parallel.cpp
   engine/base/sobol.cpp
   engine/trace/ray_tape.cpp
@@ -18,6 +19,7 @@ set(ENGINE_TEST_SOURCES
   engine/factors/shaft.cpp
   engine/light/direct.cpp
   engine/light/lambert.cpp
+  engine/light/sky_pieces.cpp
   engine/film/film.cpp
   engine/film/seen.cpp
   engine/transport/gather.cpp

@@ -5,6 +5,7 @@ set(PHYSICS_TEST_SOURCES
   physics/passes.cpp
   physics/rooms.cpp
   physics/shadows.cpp
+  physics/sky.cpp
   physics/solvers.cpp
   physics/view_factors.cpp
 )

@@ -23,7 +23,7 @@ constexpr double kStepSeconds = 10;  // a step that took so long is not repeated
 
 Json solve_once(const Scene& scene, const SolverSettings& settings, size_t threads) {
   const WorkersScope scope(std::make_shared<Workers>(threads));
-  const auto surfaces = make_surfaces(scene.faces);
+  const auto surfaces = make_surfaces(scene.faces, scene.sky);
   const Times begin = read_clocks();
   const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;

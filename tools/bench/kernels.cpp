@@ -90,7 +90,7 @@ uint64_t second_pass(Scratch& scratch, const Bench& b) {
 Bench make_bench(const std::string& path, uint64_t max_patches) {
   Scene scene = load_quietly(path);
   Bench b{.scene = std::move(scene)};
-  b.surfaces = make_surfaces(b.scene.faces);
+  b.surfaces = make_surfaces(b.scene.faces, b.scene.sky);
   b.settings = settings_within(b.scene, max_patches);
   b.start = make_solution(b.surfaces, b.settings);
   b.refined = b.start;

@@ -83,7 +83,7 @@ Json solve_on_tape(const std::string& path, uint64_t max_patches) {
   const WorkersScope scope(std::make_shared<Workers>(1));
   const Scene scene = load_quietly(path);
   const SolverSettings settings = settings_within(scene, max_patches);
-  const auto surfaces = make_surfaces(scene.faces);
+  const auto surfaces = make_surfaces(scene.faces, scene.sky);
   const Tracer& tracer = surfaces->tracer;
   RayTape tape;
   observe_rays(tracer, &tape);

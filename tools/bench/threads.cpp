@@ -17,7 +17,7 @@ constexpr size_t kRunsMax = 3;  // a run takes a while
 
 Json solve_on(const Scene& scene, const SolverSettings& settings, size_t threads) {
   const WorkersScope scope(std::make_shared<Workers>(threads));
-  const auto surfaces = make_surfaces(scene.faces);
+  const auto surfaces = make_surfaces(scene.faces, scene.sky);
   const Times begin = read_clocks();
   const Solution solution = solve_whole(surfaces, settings);
   const Times spent = read_clocks() - begin;

@@ -50,6 +50,8 @@ void collect_brightness(std::vector<float>& brightness, const FilmTable& film, s
   // Where all that is seen emits, the lamps are the picture.
   for (size_t pixel = 0; pixel < pixels.size(); ++pixel)
     if (film.pixel_first[pixel] != film.pixel_first[pixel + 1]) brightness.push_back(largest(pixels[pixel]));
+  if (!brightness.empty()) return;
+  for (const Rgb& sky : film.sky) brightness.push_back(largest(sky));
 }
 
 double pick_exposure_ev(std::span<float> brightness) {
@@ -80,10 +82,18 @@ std::vector<Rgb> expose_values(std::span<const Rgb> values, double ev, const Ton
   return shown;
 }
 
-void fill_nothing(std::span<Rgb> pixels, const FilmTable& film, Rgb color) {
+void show_sky(std::span<Rgb> pixels, const FilmTable& film, double ev, const Tone* tone) {
+  if (film.sky_share.empty()) return;
+  SkyValues values = find_sky_values(film);
+  for (std::vector<Rgb>* column : {&values.plain, &values.with_sun})
+    *column = expose_values(*column, ev, tone);
+  add_sky(pixels, film, values);
+}
+
+void fill_nothing(std::span<Rgb> pixels, const FilmTable& film, Rgb color, bool keep_sky) {
   for_rows(pixels.size(), kGrain, [&](size_t begin, size_t end) {
     for (size_t pixel = begin; pixel < end; ++pixel) {
-      float shown = 0;
+      float shown = keep_sky && !film.sky_share.empty() ? film.sky_share[pixel] : 0;
       for (uint64_t k = film.pixel_first[pixel]; k < film.pixel_first[pixel + 1]; ++k)
         shown += film.weight[k];
       pixels[pixel] += std::max(1 - shown, 0.0f) * color;

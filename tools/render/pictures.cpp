@@ -15,7 +15,8 @@ namespace {
 
 uint64_t count_film_bytes(const FilmTable& film) {
   return film.pixel_first.size() * sizeof(uint64_t) + film.value.size() * sizeof(uint32_t) +
-         film.weight.size() * sizeof(float) + film.line_cover.size() * sizeof(float);
+         film.weight.size() * sizeof(float) + film.line_cover.size() * sizeof(float) +
+         film.sky_share.size() * (2 * sizeof(float) + sizeof(Rgb));
 }
 
 // Films show corners of patches, or one value a patch.
@@ -72,6 +73,7 @@ void fix_scales(PictureState& pictures, const Task& task, const Solution& soluti
   for (const FilmTable& film : pictures.films) {
     collect_brightness(values, film, forecast, solution, task.scene.faces, is_smooth(task));
     for (const Rgb& pixel : expose(film, forecast)) brightest = std::max(brightest, luminance(pixel));
+    for (const Rgb& sky : film.sky) brightest = std::max(brightest, luminance(sky));
   }
   const ColorScale radiosity = pick_radiosity_scale(values, brightest, look.scale);
   pictures.added_scale = make_added_scale(radiosity, look.scale);
@@ -90,6 +92,8 @@ View make_view(const Camera& camera) {
           .height = camera.height,
           .projection = camera.projection};
 }
+
+bool shows_sky(const Plan& plan) { return plan.look.light != Light::kIndirect; }
 
 std::vector<Rgb> find_radiosity(const Task& task, const Solution& solution) {
   return is_smooth(task) ? vertex_radiosity(solution, find_shown_ambient(task.scene, solution))
@@ -145,8 +149,16 @@ std::vector<Rgb> show_values(const Task& task, const PictureState& pictures, con
 Picture show_film(const Task& task, const PictureState& pictures, size_t camera, std::span<const Rgb> shown) {
   const FilmTable& film = pictures.films[camera];
   Picture picture{film.width, film.height, expose(film, shown)};
-  const bool colored = task.plan.look.false_color != nullptr;
-  if (colored) fill_nothing(picture.pixels, film, kNothingColor);
+  const FalseColor* color = task.plan.look.false_color;
+  const bool colored = color != nullptr, with_sky = shows_sky(task.plan) && (!colored || color->of_light);
+  if (with_sky && colored) {
+    const SkyValues sky = find_sky_values(film);
+    add_sky(picture.pixels, film,
+            {color_luminances(pictures.scale, sky.plain), color_luminances(pictures.scale, sky.with_sun)});
+  } else if (with_sky) {
+    show_sky(picture.pixels, film, *pictures.exposure_ev, task.plan.look.tone);
+  }
+  if (colored) fill_nothing(picture.pixels, film, kNothingColor, with_sky);
   if (task.plan.mesh) draw_mesh_lines(picture.pixels, film.line_cover);
   if (colored) draw_legend(picture, pictures.scale);
   return picture;
@@ -157,8 +169,9 @@ void add_layers(Picture& picture, const Task& task, const PictureState& pictures
   constexpr const char* kEndings[3] = {".R", ".G", ".B"};
   for (const Light light : {Light::kDirect, Light::kIndirect}) {
     if (!task.plan.solver->goes_by_bounces) break;
-    const std::vector<Rgb> pixels =
-        expose(pictures.films[camera], pick_light(pictures.light, radiosity, light));
+    const FilmTable& film = pictures.films[camera];
+    std::vector<Rgb> pixels = expose(film, pick_light(pictures.light, radiosity, light));
+    if (light == Light::kDirect) add_sky(pixels, film, find_sky_values(film));
     for (int k = 0; k < 3; ++k) {
       Channel& channel = picture.channels.emplace_back();
       channel.name = kLightNames[static_cast<size_t>(light)] + kEndings[k];

@@ -32,6 +32,9 @@ void check_values(std::span<const Rgb> radiosity, size_t pass_count, const std::
 std::vector<Rgb> show_values(const Task& task, const PictureState& pictures, const Solution& solution,
                              std::span<const Rgb> lit);
 
+// Is the sky behind the scene a part of the light that is shown? It is direct light, as lamps are.
+bool shows_sky(const Plan& plan);
+
 // The picture of a film for displays, with lines and a legend where they are asked for.
 Picture show_film(const Task& task, const PictureState& pictures, size_t camera, std::span<const Rgb> shown);
 

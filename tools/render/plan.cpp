@@ -247,7 +247,7 @@ RunForecast forecast_run(const Scene& scene, const Plan& plan) {
   const SolverSettings& settings = scene.solver;
   const uint64_t start = plan.starting_patches;
   const uint64_t solver_bytes = plan.solver->forecast_bytes(faces, settings, start);
-  const Forecast solve = forecast_solve(faces, settings, start);
+  const Forecast solve = forecast_solve(faces, settings, start, scene.sky);
   Bytes bytes = {kProgramBytes + solve.bytes + static_cast<double>(solver_bytes),
                  forecast_bytes(faces, settings, start) + solver_bytes};
   double seconds = solve.seconds + plan.solver->forecast_seconds(faces, settings, start);

@@ -49,6 +49,7 @@ void send_pictures(Made& made, const Task& task, const Snapshot& snapshot, std::
         picture = std::make_shared<Picture>(exporter->exposed
                                                 ? show_film(task, made.pictures, k, snapshot.shown)
                                                 : Picture{film.width, film.height, expose(film, lit)});
+        if (!exporter->exposed && shows_sky(plan)) add_sky(picture->pixels, film, find_sky_values(film));
         if (exporter->layers) add_layers(*picture, task, made.pictures, k, snapshot.radiosity);
       }
       const StageTimer timer(seconds.write);

@@ -90,6 +90,7 @@ void take_round(Series& series, const Task& task, const Solution& solution) {
   series.rounds.resize(films.size());
   for (size_t k = 0; k < films.size(); ++k) {
     Picture picture{films[k].width, films[k].height, expose(films[k], shown)};
+    show_sky(picture.pixels, films[k], *series.round_ev, task.plan.look.tone);
     draw_mesh_lines(picture.pixels, films[k].line_cover);
     const RoundReport& round = solution.log.rounds.back();
     add_frame(series.rounds[k], picture,
@@ -125,7 +126,10 @@ void take_snapshot(Series& series, const Task& task, const PictureState& picture
     Picture colored{film.width, film.height, expose(film, added)};
     fill_nothing(colored.pixels, film, kNothingColor);
     Picture lit{film.width, film.height, expose(film, snapshot.shown)};
-    if (plan.look.false_color != nullptr) fill_nothing(lit.pixels, film, kNothingColor);
+    if (plan.look.false_color != nullptr)
+      fill_nothing(lit.pixels, film, kNothingColor);
+    else if (shows_sky(plan))
+      show_sky(lit.pixels, film, *pictures.exposure_ev, plan.look.tone);
     series.storyboards[k].panels.push_back(
         {label_step(plan, solution, snapshot.converged),
          fmt::format("reflects {}", format_watts(find_watts(task.scene, solution, 0))),

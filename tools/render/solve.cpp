@@ -24,7 +24,7 @@ void say_step(const Solution& solution, const Plan& plan, const PassReport& step
 
 void solve_mesh(Solution& solution, const Scene& scene, Talk& talk,
                 const std::function<void()>& after_round) {
-  solution = make_solution(make_surfaces(scene.faces), scene.solver);
+  solution = make_solution(make_surfaces(scene.faces, scene.sky), scene.solver);
   do {
     if (after_round) after_round();
     say_progress(talk, fmt::format("refining: {} patches", format_count(solution.mesh.elements.size())));

@@ -119,7 +119,9 @@ Picture solve(const Scene& scene, const Plan& plan, const ViewOptions& own, cons
   ev = pick_exposure(scene, solution, film);
   if (own.pass > 0) take_steps(solution, plan, own.pass, talk);
   const std::vector<Rgb> shown = expose_values(vertex_radiosity(solution), ev, plan.look.tone);
-  return {film.width, film.height, expose(film, shown)};
+  Picture picture{film.width, film.height, expose(film, shown)};
+  show_sky(picture.pixels, film, ev, plan.look.tone);
+  return picture;
 }
 
 }  // namespace

@@ -70,6 +70,8 @@ std::string sections_of(const std::string& text, const std::string& table) {
       {"grid", {"### grid", "### quad"}},
       {"room", {"### room", "### box"}},
       {"walls", {"### room", "### box"}},
+      {"sky", {"## Sky and sun"}},
+      {"sun", {"## Sky and sun"}},
       {"camera", {"## Camera"}},
       {"solver", {"## Solver and output"}},
       {"output", {"## Solver and output"}},

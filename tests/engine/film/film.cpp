@@ -281,3 +281,46 @@ TEST_CASE("film: a hemisphere is full in a closed room, empty outside of its cir
   const FilmTable above = make_film(make_scenery(run), view, {true, false, 1});
   CHECK(weight_sum(above, 24 * 48 + 24) == 0);
 }
+
+TEST_CASE("film: the sky is behind everything, and a small sun in it has its size") {
+  FaceTable faces;
+  add_quad(faces, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, make_surface(0, 0.5f));
+  Sky sky = make_overcast_sky(Rgb(70));
+  sky.sun_direction = normalize(Vec3(0.2f, 1, 0.1f)), sky.sun_radius = 0.004f, sky.sun_emission = Rgb(1e6f);
+  const Solution run = solve_scene(faces, {}, 1, sky);
+  View view = make_view({0.5f, 0.2f, 0.5f}, {0.7f, 1.2f, 0.6f}, 60, 60);
+  const FilmTable film = make_film(make_scenery(run), view, {});
+  REQUIRE(film.sky.size() == 3600);
+  const Lens lens = make_lens(view);
+  double sun = 0;
+  for (size_t pixel = 0; pixel < 3600; ++pixel) {
+    CHECK(film.sky_share[pixel] == doctest::Approx(1).epsilon(1e-5));
+    const Vec3 way = lens.find_direction(Vec2(float(pixel % 60) + 0.5f, float(pixel / 60) + 0.5f));
+    // The middle of a pixel's samples is off its centre by a tenth of it at most, where it is 2 degrees wide.
+    CHECK(film.sky[pixel].g == doctest::Approx(find_sky_emission(sky, way).g).epsilon(2e-3));
+    sun += film.sun_share[pixel];
+  }
+  // pi tan^2 of the radius, in pixels; each is tan(30 degrees) / 30 wide. 256 samples a pixel tell a share of
+  // 0.04 by half.
+  const double side = std::tan(std::numbers::pi / 6) / 30;
+  CHECK(sun == doctest::Approx(std::numbers::pi * 1.6e-5 / (side * side)).epsilon(0.3));
+  // Exposed, a pixel is its share of the sky and of the disc.
+  std::vector<Rgb> pixels = expose(film, vertex_radiosity(run));
+  add_sky(pixels, film, find_sky_values(film));
+  double all = 0, plain = 0;
+  for (size_t pixel = 0; pixel < 3600; ++pixel)
+    all += double{pixels[pixel].g}, plain += double{film.sky[pixel].g};
+  CHECK(all == doctest::Approx(plain + 1e6 * sun).epsilon(1e-4));
+  // A floor hides what is below it.
+  view.eye = {0.5f, 1.0f, 0.5f}, view.target = {0.5f, 0, 0.5f}, view.up = {0, 0, -1}, view.fov_degrees = 40;
+  for (const float share : make_film(make_scenery(run), view, {}).sky_share) CHECK(share == 0);
+}
+
+TEST_CASE("film: where there is no sky its columns are empty") {
+  const FaceTable faces = make_room(true);
+  const Solution run = solve_scene(faces, {}, 0);
+  const FilmTable film = make_film(
+      make_scenery(run), make_view({0.1f, 0.1f, 0.35f}, {0.3f, 0.25f, 0.05f}, 8, 8), {.smooth = false});
+  CHECK(film.sky.empty());
+  CHECK(find_sky_values(film).plain.empty());
+}

@@ -40,7 +40,7 @@ inline void solve_scene(LitScene& lit, uint32_t pass_count) {
   Camera camera;
   camera.eye = DVec3(0.2, 0.1, 0.3), camera.target = DVec3(0.2, 0.1, 0), camera.up = DVec3(0, 1, 0);
   scene.cameras = {camera};
-  lit.solution = make_solution(make_surfaces(scene.faces), scene.solver);
+  lit.solution = make_solution(make_surfaces(scene.faces, scene.sky), scene.solver);
   while (refine(lit.solution)) {
   }
   freeze(lit.solution);
