@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kSmaller = 1 - 1e-5;
 constexpr double kOneAngle = 1e-6;        // of normals: 1 - cosine
-constexpr double kOnePlane = 2e-6;        // engine lengths: about a ray's offset
+constexpr double kOnePlane = 2e-6;        // engine lengths: about a ray's offset; at most ...
+constexpr double kOnePlaneOwn = 1e-5;     // ... this share of the smaller one's size
 constexpr double kOverlapMin = 1e-5;      // share of the smaller polygon's area
 constexpr size_t kPairsMax = 5'000'000;   // of polygons that are compared
 constexpr size_t kWorkMax = 200'000'000;  // pairs of their faces and corners: what is beyond is not searched
@@ -181,10 +182,11 @@ bool find_overlap(Search& search, size_t i, size_t j, Overlap& overlap) {
                large = small == first ? second : first;
   const uint32_t p = planes.polygon[small], q = planes.polygon[large];
   const DVec3 origin = corner_of(table, q, table.face_first[q], 0);
+  // Small plates that nearly touch are two, also beside a wide ground.
+  const double near = std::min(search.near, kOnePlaneOwn * std::sqrt(planes.area[small]));
   for (uint32_t f = table.face_first[p]; f < table.face_first[p + 1]; ++f)
     for (size_t k = 0; k < 4; ++k)
-      if (std::abs(glm::dot(corner_of(table, p, f, k) - origin, planes.normal[large])) > search.near)
-        return false;
+      if (std::abs(glm::dot(corner_of(table, p, f, k) - origin, planes.normal[large])) > near) return false;
   const bool any_two_sided = search.objects.two_sided[search.outlines.object[p]] ||
                              search.objects.two_sided[search.outlines.object[q]];
   const auto face_count = [&](uint32_t of) -> size_t {

@@ -23,6 +23,7 @@ std::vector<uint8_t> find_reaching(const Solution& s) {
   for (uint32_t r = 0; r < transport.receivers.size(); ++r)
     for (uint32_t k = transport.sights.first[r]; k < transport.sights.first[r + 1]; ++k) {
       const uint32_t group = transport.sights.group[k];
+      if (groups.is_sky(group)) continue;
       find_strengths(strength, groups, group, transport.receivers.centre[r], transport.receivers.normal[r]);
       for (uint64_t rest = transport.sights.pieces[k]; rest != 0; rest &= rest - 1) {
         const auto piece = static_cast<uint32_t>(std::countr_zero(rest));

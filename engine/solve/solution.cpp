@@ -64,8 +64,8 @@ std::vector<Rgb> find_sky_light(Solution& s) {
     sights.first.push_back(static_cast<uint32_t>(sights.group.size()));
   }
   std::vector<Rgb> light(s.mesh.elements.size());
-  std::vector<float> error(light.size());
-  s.log.direct_ray_count += find_direct({light, error}, all_rows(light.size()),
+  std::vector<float> error(light.size()), noise(light.size());
+  s.log.direct_ray_count += find_direct({light, error, noise}, all_rows(light.size()),
                                         {*s.surfaces, s.mesh, s.transport.receivers, groups, sights},
                                         final_rays(s.settings), s.settings.seed);
   return light;

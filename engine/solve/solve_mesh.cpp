@@ -290,40 +290,22 @@ std::vector<uint32_t> find_shadow_edges(const Solution& s) {
   return rows;
 }
 
-// Elements whose direct light is noisy, and those around them as far as smoothing looks.
+// Elements whose direct light is noisy: those that see all of a lamp or nothing of it keep what they have.
 std::vector<uint32_t> find_noisy_elements(const Solution& s) {
-  constexpr int kRings = 4;
-  std::vector<uint8_t> near(s.mesh.elements.size(), 0), next;
-  for (size_t row = 0; row < near.size(); ++row) near[row] = s.light.direct_noise[row] != 0;
-  for (int ring = 0; ring < kRings; ++ring) {
-    next = near;
-    for_rows(near.size(), 4096, [&](size_t begin, size_t end) {
-      for (size_t row = begin; row < end; ++row) {
-        if (near[row]) continue;
-        for (uint32_t edge = 0; edge < edge_count(s.surfaces->frames, s.mesh.elements.face[row]); ++edge)
-          for (const uint32_t other :
-               find_neighbours(s.mesh.elements, s.surfaces->frames, s.surfaces->smooth_links,
-                               static_cast<uint32_t>(row), edge))
-            next[row] |= other != kNone && near[other];
-      }
-    });
-    std::swap(near, next);
-  }
   std::vector<uint32_t> rows;
-  for (uint32_t row = 0; row < near.size(); ++row)
-    if (near[row]) rows.push_back(row);
+  for (uint32_t row = 0; row < s.light.direct_noise.size(); ++row)
+    if (s.light.direct_noise[row] != 0) rows.push_back(row);
   return rows;
 }
 
 // Less noise where emitters are seen in part. The error that is told of it is what smoothing leaves.
 void smooth_direct(Solution& s) {
-  const std::vector<uint32_t> noisy = find_noisy_elements(s);
-  if (!noisy.empty()) {
+  const SmoothingTable smoothing = make_smoothing(s.mesh.elements, *s.surfaces, find_noisy_elements(s));
+  if (smoothing.size() > 0) {
     std::vector<float> error(s.mesh.elements.size());
     const std::vector<Rgb> before = s.light.direct;
-    smooth_noise({s.light.direct, s.light.direct_noise, error},
-                 make_smoothing(s.mesh.elements, *s.surfaces, noisy), kDirectStrengths);
-    keep_power(s.light.direct, before, s.mesh.elements, s.surfaces->faces);
+    smooth_noise({s.light.direct, s.light.direct_noise, error}, smoothing, kDirectStrengths);
+    keep_power(s.light.direct, before, smoothing, s.mesh.elements, s.surfaces->faces);
     s.light.direct_error = std::move(error);
   }
   s.light.direct_noise = {};

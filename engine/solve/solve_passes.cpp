@@ -81,7 +81,7 @@ std::vector<float> smooth_bounce(const Solution& s, std::span<Rgb> received,
   for (size_t p = 0; p < noise.size(); ++p) noise[p] = mean_channel(difference[p]);
   const std::vector<Rgb> before(received.begin(), received.end());
   smooth_noise({received, noise, error}, s.transport.smoothing, kBounceStrengths);
-  keep_power(received, before, s.mesh.patches, s.surfaces->faces);
+  keep_power(received, before, s.transport.smoothing, s.mesh.patches, s.surfaces->faces);
   return error;
 }
 

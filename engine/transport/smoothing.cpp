@@ -192,26 +192,26 @@ void smooth_noise(const NoisyColumns& columns, const SmoothingTable& smoothing, 
   });
 }
 
-void keep_power(std::span<Rgb> after, std::span<const Rgb> before, const PatchTable& leaves,
-                const FaceTable& faces) {
-  // Faces of a polygon follow each other, and so do the leaves of a face.
-  std::vector<uint32_t> polygon_face = {0};
-  for (uint32_t face = 1; face < faces.size(); ++face)
-    if (faces.polygon[face] != faces.polygon[face - 1]) polygon_face.push_back(face);
-  polygon_face.push_back(static_cast<uint32_t>(faces.size()));
-  for_rows(polygon_face.size() - 1, 16, [&](size_t begin, size_t end) {
+void keep_power(std::span<Rgb> after, std::span<const Rgb> before, const SmoothingTable& smoothing,
+                const PatchTable& leaves, const FaceTable& faces) {
+  // Leaves of a polygon follow each other.
+  std::vector<size_t> first;
+  const auto polygon_of = [&](size_t entry) { return faces.polygon[leaves.face[smoothing.leaf[entry]]]; };
+  for (size_t entry = 0; entry < smoothing.size(); ++entry)
+    if (entry == 0 || polygon_of(entry) != polygon_of(entry - 1)) first.push_back(entry);
+  first.push_back(smoothing.size());
+  for_rows(first.size() - 1, 16, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
-      const uint32_t first = leaves.face_first[polygon_face[k]],
-                     last = leaves.face_first[polygon_face[k + 1]];
       DRgb sum_before(0), sum_after(0);
-      for (uint32_t row = first; row < last; ++row) {
-        const double area = double{leaves.area[row]} * leaves.exposed[row];
-        sum_before += area * DRgb(before[row]), sum_after += area * DRgb(after[row]);
+      for (size_t entry = first[k]; entry < first[k + 1]; ++entry) {
+        const uint32_t leaf = smoothing.leaf[entry];
+        const double area = double{leaves.area[leaf]} * leaves.exposed[leaf];
+        sum_before += area * DRgb(before[leaf]), sum_after += area * DRgb(after[leaf]);
       }
       Rgb factor(1);
       for (int c = 0; c < 3; ++c)
         if (sum_after[c] > 0) factor[c] = static_cast<float>(sum_before[c] / sum_after[c]);
-      for (uint32_t row = first; row < last; ++row) after[row] *= factor;
+      for (size_t entry = first[k]; entry < first[k + 1]; ++entry) after[smoothing.leaf[entry]] *= factor;
     }
   });
 }

@@ -38,9 +38,9 @@ struct NoisyColumns {
 // steps of half a leaf's width: more take longer.
 void smooth_noise(const NoisyColumns& columns, const SmoothingTable& smoothing, uint32_t strengths);
 
-// Scales `after`, polygon by polygon, so that its sum over the exposed area is again that of `before`:
-// smoothing neither makes light nor takes it away. Both a row a leaf, W/m2.
-void keep_power(std::span<Rgb> after, std::span<const Rgb> before, const PatchTable& leaves,
-                const FaceTable& faces);
+// Scales those values of `after` that were smoothed, polygon by polygon, so that their sum over the exposed
+// area is again that of `before`: smoothing neither makes light nor takes it away. Both a row a leaf, W/m2.
+void keep_power(std::span<Rgb> after, std::span<const Rgb> before, const SmoothingTable& smoothing,
+                const PatchTable& leaves, const FaceTable& faces);
 
 }  // namespace patchlight

@@ -25,7 +25,9 @@ set(ENGINE_TEST_SOURCES
   engine/transport/gather.cpp
   engine/transport/receivers.cpp
   engine/transport/rows.cpp
+  engine/transport/smoothing.cpp
   engine/solve/dark.cpp
+  engine/solve/error.cpp
   engine/solve/forecast.cpp
   engine/solve/leaks.cpp
   engine/solve/ledger.cpp
