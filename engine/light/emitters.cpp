@@ -78,10 +78,10 @@ float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter) {
 
 namespace {
 
-// A face is cut until a cell of it, weighed by the fourth root of its share of all power, looks smaller than
-// this.
+// A face is cut until each cell of it, weighed by the fourth root of the face's share of all power, looks
+// smaller than this: a wide sky is fine where it is near and coarse where it is far.
 constexpr float kPieceAngle = 0.125f;
-constexpr uint32_t kPieceLevelMax = 4;
+constexpr uint8_t kPieceLevelMax = 12;
 constexpr size_t kPiecesWanted = 1024;
 // Pieces no further off than so many times the nearest are beside one: on a grid, all eight.
 constexpr float kBeside = 1.6f;
@@ -94,10 +94,18 @@ std::vector<Emitter> make_emitters(const FaceTable& faces, const FaceFrameTable&
   return emitters;
 }
 
-// How wide a face looks from about the middle of what reflects.
-float find_angle(const Emitter& lamp, Vec3 low, Vec3 high, float scale) {
-  const Vec3 nearest = clamp(lamp.centre, low, high);
-  return std::min(lamp.diameter / (0.15f * scale + distance(nearest, lamp.centre)), 2.0f);
+// Where what reflects is: its box, and the square root of its area.
+struct Lit {
+  Vec3 low{1e30f}, high{-1e30f};
+  float scale = 0;
+};
+
+// How wide a cell looks from about the nearest of what reflects.
+float find_angle(const FaceFrameTable& frames, const CellName& name, const Lit& lit) {
+  const auto corners = cell_corners(frames, name.face, name.cell, name.level);
+  const float diameter = std::max(distance(corners[0], corners[2]), distance(corners[1], corners[3]));
+  const Vec3 centre = cell_centre(frames, name.face, name.cell, name.level);
+  return std::min(diameter / (0.15f * lit.scale + distance(clamp(centre, lit.low, lit.high), centre)), 2.0f);
 }
 
 struct PieceName {
@@ -105,6 +113,20 @@ struct PieceName {
   uint8_t level;
   Vec3 centre;
 };
+
+// Cuts a cell until its parts look smaller than `angle`; no more than `count_max` pieces in all.
+void cut_face(std::vector<PieceName>& names, const FaceFrameTable& frames, const CellName& name, float angle,
+              const Lit& lit, size_t count_max) {
+  if (names.size() > count_max) return;
+  if (name.level == kPieceLevelMax || find_angle(frames, name, lit) <= angle) {
+    names.push_back({name.face, name.cell, static_cast<uint8_t>(name.level),
+                     cell_centre(frames, name.face, name.cell, name.level)});
+    return;
+  }
+  for (uint32_t child = 0; child < 4; ++child)
+    cut_face(names, frames, {name.face, name.cell | child << (30 - 2 * name.level), name.level + 1}, angle,
+             lit, count_max);
+}
 
 // Halves a run of pieces across its longest axis until groups are small enough.
 void split_group(std::vector<PieceName>& names, uint32_t first, uint32_t last, std::vector<uint32_t>& ends) {
@@ -155,35 +177,26 @@ void add_sky(EmitterGroups& groups, const Sky& sky, SkyDetail detail) {
 EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames, const Sky& sky,
                                   SkyDetail detail) {
   const std::vector<Emitter> lamps = make_emitters(faces, frames);
-  Vec3 low(1e30f), high(-1e30f);
+  Lit lit;
   double area = 0, power = 0;
   for (uint32_t f = 0; f < faces.size(); ++f) {
     if (largest(faces.reflectance[f]) == 0) continue;
     area += cell_area(frames, f, 0, 0);
-    for (const Vec3& p : faces.corners[f]) low = min(low, p), high = max(high, p);
+    for (const Vec3& p : faces.corners[f]) lit.low = min(lit.low, p), lit.high = max(lit.high, p);
   }
+  lit.scale = static_cast<float>(std::sqrt(area));
   for (const Emitter& lamp : lamps) power += double{lamp.area} * luminance(faces.emission[lamp.face]);
-  const auto scale = static_cast<float>(std::sqrt(area));
-  std::vector<uint8_t> level(lamps.size(), 0);
-  if (area > 0) {
-    for (float wanted = kPieceAngle;; wanted *= 1.5f) {
-      size_t count = 0;
-      for (size_t k = 0; k < lamps.size(); ++k) {
-        const double share = lamps[k].area * luminance(faces.emission[lamps[k].face]) / power;
-        float angle =
-            find_angle(lamps[k], low, high, scale) * static_cast<float>(std::sqrt(std::sqrt(share)));
-        for (level[k] = 0; angle > wanted && level[k] < kPieceLevelMax; angle /= 2) ++level[k];
-        count += size_t{1} << 2 * level[k];
-      }
-      if (count <= std::max(kPiecesWanted, lamps.size())) break;
-    }
-  }
+  const size_t count_max = std::max(kPiecesWanted, lamps.size());
   std::vector<PieceName> names;
-  for (size_t k = 0; k < lamps.size(); ++k)
-    for (uint32_t part = 0; part < 1u << 2 * level[k]; ++part) {
-      const uint32_t cell = level[k] == 0 ? 0 : part << (32 - 2 * level[k]);
-      names.push_back({lamps[k].face, cell, level[k], cell_centre(frames, lamps[k].face, cell, level[k])});
+  for (float wanted = area > 0 ? kPieceAngle : 1e30f;; wanted *= 1.5f) {
+    names.clear();
+    for (const Emitter& lamp : lamps) {
+      const double share = lamp.area * luminance(faces.emission[lamp.face]) / power;
+      const float weight = std::max(static_cast<float>(std::sqrt(std::sqrt(share))), 1e-6f);
+      cut_face(names, frames, {lamp.face}, wanted / weight, lit, count_max);
     }
+    if (names.size() <= count_max) break;
+  }
   EmitterGroups groups;
   groups.piece_first.push_back(0);
   std::vector<uint32_t> ends;

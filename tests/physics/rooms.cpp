@@ -1,9 +1,11 @@
 // Rooms in which the form factors matter and the answer is known.
+#include "engine/light/lambert.h"
 #include "tests/scenes.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 
 using namespace patchlight;
 
@@ -173,5 +175,44 @@ TEST_CASE("concentric spheres exchange light by their areas alone") {
     advance_to(run, pass);
     CHECK(std::abs(mean_radiosity(run, faces, inner, end) - b_inner) <= kMeanError);
     CHECK(std::abs(mean_radiosity(run, faces, outer, inner) - b_outer) <= kMeanError);
+  }
+}
+
+TEST_CASE("a window lets in what a bright panel before it sends, however wide the panel") {
+  for (const float side : {8.0f, 40.0f, 200.0f, 800.0f}) {
+    CAPTURE(side);
+    FaceTable faces;
+    const Surface wall = make_surface(0, 0.5f);
+    const auto x0 = [](float y, float z) { return Vec3(0, y, z); };
+    // The wall at x = 0 around a window of 1 x 1, seen from inside.
+    add_quad(faces, x0(0, 0), x0(1, 0), x0(1, 4), x0(0, 4), wall);
+    add_quad(faces, x0(2, 0), x0(3, 0), x0(3, 4), x0(2, 4), wall);
+    add_quad(faces, x0(1, 0), x0(2, 0), x0(2, 1.5f), x0(1, 1.5f), wall);
+    add_quad(faces, x0(1, 2.5f), x0(2, 2.5f), x0(2, 4), x0(1, 4), wall);
+    add_quad(faces, {0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}, wall);
+    add_quad(faces, {0, 3, 0}, {4, 3, 0}, {4, 3, 4}, {0, 3, 4}, wall);
+    add_quad(faces, {4, 0, 0}, {4, 0, 4}, {4, 3, 4}, {4, 3, 0}, wall);
+    add_quad(faces, {0, 0, 4}, {0, 3, 4}, {4, 3, 4}, {4, 0, 4}, wall);
+    add_quad(faces, {0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}, wall);
+    const float h = side / 2;
+    const std::array<Vec3, 4> panel = {Vec3(-2, 1.5f - h, 2 - h), Vec3(-2, 1.5f + h, 2 - h),
+                                       Vec3(-2, 1.5f + h, 2 + h), Vec3(-2, 1.5f - h, 2 + h)};
+    // What passes the window, by Lambert's formula at the middles of 16 x 16 parts: within 1e-4.
+    double passed = 0;
+    for (int j = 0; j < 16; ++j)
+      for (int k = 0; k < 16; ++k)
+        passed += find_point_form_factor(DVec3(0, 1 + (j + 0.5) / 16, 1.5 + (k + 0.5) / 16), DVec3(-1, 0, 0),
+                                         panel) /
+                  256;
+    add_quad(faces, panel[0], panel[1], panel[2], panel[3], make_surface(1, 0));
+    const Vec3 normal = faces.normal.back();
+    REQUIRE(normal.x > 0.99f);
+    // As the loader does it: of about the size 1, whatever shines on it.
+    map_scene(faces, 0.1f, Vec3(0));
+    const double window = 0.01;
+    const Solution s = solve_scene(faces, {}, 1);
+    const double received = polygon_power(s, faces, 0, 9, element_irradiance(s)).g;
+    // Rays find the window's edges: a hundredth.
+    CHECK(received / window == doctest::Approx(passed).epsilon(0.012));
   }
 }
