@@ -7,6 +7,8 @@
 #include "engine/light/shoot.h"
 #include "engine/solve/solution.h"
 
+#include <algorithm>
+
 namespace patchlight {
 namespace {
 
@@ -25,6 +27,23 @@ uint32_t pick_shooter(const Solution& s) {
   for (uint32_t p = 0; p < s.mesh.patches.size(); ++p)
     if (const double power = sum_channels(find_unshot_power(s, p)); power > most) most = power, best = p;
   return best;
+}
+
+// What a unit of unshot power still adds by all later reflections, at the scene's mean reflectance, if
+// nothing leaves: among bright walls that is many times itself. At least 1, so that dark rooms end as late as
+// ever.
+double find_rebound(const Solution& s) {
+  constexpr double kMost = 1e4;
+  DRgb reflected(0);
+  double area = 0;
+  for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
+    const double exposed_area = double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p];
+    reflected += exposed_area * DRgb(s.surfaces->faces.reflectance[s.mesh.patches.face[p]]);
+    area += exposed_area;
+  }
+  if (area <= 0) return 1;
+  const double mean = std::max({reflected.r, reflected.g, reflected.b}) / area;
+  return std::clamp(mean / std::max(1 - mean, 1e-9), 1.0, kMost);
 }
 
 // What the elements received is theirs to send on.
@@ -105,7 +124,8 @@ const PassReport& advance_shot(Solution& s) {
 bool is_shot(const Solution& s) {
   if (s.log.passes.empty()) return false;
   const double unshot = sum_channels(s.log.passes.back().unshot_power);
-  return unshot == 0 || (s.shooting->power > 0 && unshot < s.settings.until * s.shooting->power);
+  return unshot == 0 ||
+         (s.shooting->power > 0 && unshot * find_rebound(s) < s.settings.until * s.shooting->power);
 }
 
 // The light that is still unshot, spread evenly over all surfaces and reflected without end: an estimate for

@@ -230,3 +230,22 @@ TEST_CASE("where light never dies the matrix has no solution, and says so") {
   Solution run = make_run(faces, settings);
   CHECK_THROWS_AS(solve_matrix(run), std::domain_error);
 }
+
+TEST_CASE("shots among bright walls end where the light does: B = E / (1 - rho)") {
+  for (const float reflectance : {0.5f, 0.9f, 0.97f}) {
+    CAPTURE(reflectance);
+    FaceTable faces;
+    add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces(make_surface(1, reflectance)));
+    fit_scene(faces);
+    SolverSettings settings;
+    settings.patch_size = settings.patch_size_min = 1;
+    settings.threshold = 1;
+    settings.until = 0.001;
+    Solution s = solve_scene(faces, settings, 0);
+    freeze(s);
+    for (uint32_t shot = 0; shot < 20000 && !(shot > 0 && is_shot(s)); ++shot) advance_shot(s);
+    REQUIRE(is_shot(s));
+    // What is left by `until`, and the factors' own noise.
+    CHECK(mean_radiosity(s, faces, 0, 6) == doctest::Approx(1 / (1 - double{reflectance})).epsilon(3e-3));
+  }
+}
