@@ -109,12 +109,13 @@ void add_solver_flags(Usage& usage, Options& options) {
 
 void add_method_flags(Usage& usage, Options& options) {
   std::vector<std::string> names;
-  for (const Solver& solver : solvers()) names.emplace_back(solver.name);
-  add_choice(
-      usage, "--solver", names,
-      "the way to solve: bounce by bounce, progressive refinement, or the whole linear system at once; "
-      "passes unless given",
-      [&](size_t choice) { options.solver = &solvers()[choice]; });
+  std::string ways = "the way to solve: ";
+  for (const Solver& solver : solvers()) {
+    names.emplace_back(solver.name);
+    ways += fmt::format("{}: {}; ", solver.name, solver.summary);
+  }
+  add_choice(usage, "--solver", names, ways + std::string(solvers().front().name) + " unless given",
+             [&](size_t choice) { options.solver = &solvers()[choice]; });
   add_value(
       usage, "--shots", "LIST",
       name_solvers(&Solver::chooses_steps) + ": pictures after these shots, such as 1-40,100, and then stop",
