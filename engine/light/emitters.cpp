@@ -83,6 +83,9 @@ namespace {
 constexpr float kPieceAngle = 0.125f;
 constexpr uint8_t kPieceLevelMax = 12;
 constexpr size_t kPiecesWanted = 1024;
+// Lamps whose emissions differ by more than this are in no group together: a strong one that is hidden would
+// take the rays of a weak one that is seen.
+constexpr float kGroupEmission = 8;
 // Pieces no further off than so many times the nearest are beside one: on a grid, all eight.
 constexpr float kBeside = 1.6f;
 
@@ -200,7 +203,14 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
   EmitterGroups groups;
   groups.piece_first.push_back(0);
   std::vector<uint32_t> ends;
-  if (!names.empty()) split_group(names, 0, static_cast<uint32_t>(names.size()), ends);
+  const auto emission_of = [&](const PieceName& name) { return luminance(faces.emission[name.face]); };
+  std::stable_sort(names.begin(), names.end(),
+                   [&](const PieceName& a, const PieceName& b) { return emission_of(a) > emission_of(b); });
+  for (uint32_t first = 0, last = 0; first < names.size(); first = last) {
+    while (last < names.size() && emission_of(names[last]) * kGroupEmission >= emission_of(names[first]))
+      ++last;
+    split_group(names, first, last, ends);
+  }
   for (const uint32_t end : ends) {
     std::sort(
         names.begin() + groups.piece_first.back(), names.begin() + end,

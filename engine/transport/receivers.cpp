@@ -58,6 +58,9 @@ bool find_candidate(Candidate& candidate, uint32_t patch, const PatchTable& patc
   const auto reach_kind = static_cast<uint32_t>(std::clamp(steps, 0.0f, kReachSteps - 1.0f));
   candidate.kind =
       find_normal_kind(faces.normal[face]) * (kReachSteps + 1) + (buried ? kReachSteps : reach_kind);
+  // The inside of a shade and its outside, on the other side of it, face one way.
+  const uint32_t twin = faces.twin[face], side = twin == kNone ? 0 : twin > face ? 1 : 2;
+  candidate.kind = 3 * candidate.kind + side;
   candidate.centre = cell_centre(surfaces.frames, face, cell, level);
   return true;
 }

@@ -200,7 +200,7 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
     std::array<float, kGroupPiecesMax> strength;
     SkyIrradiance sky;
     std::vector<Look> looks;
-    std::vector<uint8_t> glimpsed;
+    std::vector<uint8_t> glimpsed, is_looked_at;
     std::vector<float> sums(group_count);
     uint64_t rays = 0;
     for (auto r = static_cast<uint32_t>(begin); r < end; ++r) {
@@ -208,7 +208,7 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
       // All look at the sky: rows tell nothing of it.
       const size_t group_first = aiming[faces.polygon[face]] ? 0 : groups.lamp_group_count();
       if (group_first == group_count) continue;
-      float exposed = 0, all = 0, sky_sum = 0;
+      float exposed = 0, sky_sum = 0;
       for (uint32_t k = receivers.first[r]; k < receivers.first[r + 1]; ++k)
         exposed = std::max(exposed, from.patches.exposed[receivers.patch[k]]);
       if (exposed == 0) continue;
@@ -217,7 +217,6 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         sums[g] = groups.is_sky(g)
                       ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
                       : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
-        all += sums[g];
         if (groups.is_sky(g) && !groups.is_sun(g)) sky_sum += sums[g];
       }
       const bool single = receivers.first[r + 1] - receivers.first[r] == 1;
@@ -235,6 +234,7 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         if (!is_below(g)) look_at(g, 0, kGlancePackets);
       const auto is_glimpsed = [&](size_t g) { return glimpsed[g] != 0; };
       glimpsed.assign(group_count, 0);
+      is_looked_at.assign(group_count, 0);
       size_t glimpsed_count = 0;
       for (size_t g = group_first; g < group_count; ++g) {
         glimpsed[g] = looks[g].arrived > 0;
@@ -250,7 +250,17 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         // A spot of the sun may be small on a large patch, and is bright.
         const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
         look_at(g, groups.is_sky(g) ? kGlancePackets : 0, first_packets);
+        is_looked_at[g] = 1;
+      }
+      // What is hidden, however strong, says nothing of what counts.
+      float all = 0;
+      for (size_t g = group_first; g < group_count; ++g)
+        if (looks[g].arrived > 0) all += sums[g];
+      for (size_t g = group_first; g < group_count; ++g) {
+        if (!is_looked_at[g]) continue;
+        const bool sun = groups.is_sun(g);
         const Look& sum = looks[g];
+        const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
         // Through a window few groups of the sky are seen, and all of them count.
         const bool weak = groups.is_sky(g) && !sun
                               ? glimpsed_count > kFewGroups && sums[g] < kWeakShare * sky_sum

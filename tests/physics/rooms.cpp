@@ -216,3 +216,54 @@ TEST_CASE("a window lets in what a bright panel before it sends, however wide th
     CHECK(received / window == doctest::Approx(passed).epsilon(0.012));
   }
 }
+
+TEST_CASE("a strong lamp in the next room takes nothing from a weak one in this room") {
+  double received[2];
+  for (int k = 0; k < 2; ++k) {
+    FaceTable faces;
+    const Surface wall = make_surface(0, 0.5f);
+    const uint32_t room = add_box_inward(faces, {4, 0, 0}, {8, 3, 4}, make_box_surfaces(wall));
+    add_box_inward(faces, {0, 0, 0}, {4, 3, 4}, make_box_surfaces(wall));
+    // Under the ceilings, a table in between, so that rays are needed.
+    add_quad(faces, {5.6f, 2.9f, 1.6f}, {6.4f, 2.9f, 1.6f}, {6.4f, 2.9f, 2.4f}, {5.6f, 2.9f, 2.4f},
+             make_surface(1, 0));
+    add_quad(faces, {1.6f, 2.9f, 1.6f}, {2.4f, 2.9f, 1.6f}, {2.4f, 2.9f, 2.4f}, {1.6f, 2.9f, 2.4f},
+             make_surface(k == 0 ? 1.0f : 1000.0f, 0));
+    add_box_outward(faces, {5, 0.5f, 1}, {7, 0.7f, 2}, wall);
+    map_scene(faces, 0.1f, Vec3(0));
+    const Solution s = solve_scene(faces, {}, 1);
+    received[k] = polygon_power(s, faces, room, room + 6, element_irradiance(s)).g;
+  }
+  // The shadow's edge, by other samples.
+  CHECK(received[1] == doctest::Approx(received[0]).epsilon(2e-3));
+}
+
+TEST_CASE("no light goes through a small shade from its inside to its outside") {
+  FaceTable faces;
+  const Surface white = make_surface(0, 0.8f);
+  add_box_inward(faces, {0, 0, 0}, {5, 3, 4}, make_box_surfaces(make_surface(0, 0)));
+  add_box_outward(faces, {4.25f, 1.45f, 0.65f}, {4.35f, 1.55f, 0.75f}, make_surface(100, 0));
+  const auto first = static_cast<uint32_t>(faces.size());
+  const float low = 1.35f, high = 1.65f;
+  const std::array<Vec2, 4> corner = {Vec2(4.1f, 0.5f), Vec2(4.5f, 0.5f), Vec2(4.5f, 0.9f), Vec2(4.1f, 0.9f)};
+  for (size_t k = 0; k < 4; ++k) {
+    const Vec2 a = corner[k], b = corner[(k + 1) % 4];
+    add_two_sided(
+        faces,
+        std::array{Vec3(a.x, low, a.y), Vec3(b.x, low, b.y), Vec3(b.x, high, b.y), Vec3(a.x, high, a.y)},
+        white, white);
+  }
+  map_scene(faces, 0.1f, Vec3(0));
+  const Solution s = solve_scene(faces, {}, 8);
+  double inside = 0;
+  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
+    const uint32_t face = s.mesh.elements.face[row];
+    if (face < first) continue;
+    const Vec3 outwards = faces.corners[face][0] + faces.corners[face][2] - 0.2f * Vec3(4.3f, 1.5f, 0.7f);
+    if (dot(outwards, faces.normal[face]) > 0)
+      CHECK(largest(s.mesh.elements.radiosity[row]) == 0);
+    else
+      inside = std::max(inside, double{largest(s.mesh.elements.radiosity[row])});
+  }
+  CHECK(inside > 1);
+}

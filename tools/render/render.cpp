@@ -223,7 +223,7 @@ void warn_not_converged(const Scene& scene, const RunReport& report, std::span<c
       sum_channels(passes.back().added_power) / std::max(sum_channels(passes.front().added_power), 1e-300);
   say_warning(
       talk, "not-converged",
-      fmt::format("pass {} still added {:.2g} % of the {} that pass 1 added, and until is {:g} %: more "
+      fmt::format("pass {} still added {:.3g} % of the {} that pass 1 added, and until is {:g} %: more "
                   "passes would change the picture",
                   passes.size(), 100 * std::max(largest, power),
                   power > largest ? "power" : "largest radiosity", 100 * until),
