@@ -179,7 +179,7 @@ TEST_CASE("concentric spheres exchange light by their areas alone") {
 }
 
 TEST_CASE("a window lets in what a bright panel before it sends, however wide the panel") {
-  for (const float side : {8.0f, 40.0f, 200.0f, 800.0f}) {
+  for (const float side : {8.0f, 400.0f}) {
     CAPTURE(side);
     FaceTable faces;
     const Surface wall = make_surface(0, 0.5f);
@@ -210,7 +210,11 @@ TEST_CASE("a window lets in what a bright panel before it sends, however wide th
     // As the loader does it: of about the size 1, whatever shines on it.
     map_scene(faces, 0.1f, Vec3(0));
     const double window = 0.01;
-    const Solution s = solve_scene(faces, {}, 1);
+    SolverSettings settings;
+    settings.patch_count_max = 40000;
+    settings.rays = 64;
+    settings.threshold = 0.3f;
+    const Solution s = solve_scene(faces, settings, 1);
     const double received = polygon_power(s, faces, 0, 9, element_irradiance(s)).g;
     // Rays find the window's edges: a hundredth.
     CHECK(received / window == doctest::Approx(passed).epsilon(0.012));
