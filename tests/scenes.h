@@ -189,6 +189,17 @@ inline float fit_scene(FaceTable& faces) {
   return scale;
 }
 
+// A closed room of three colours, a small lamp under its ceiling and a box on its floor.
+inline FaceTable make_furnished_room() {
+  FaceTable faces;
+  add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces({Rgb(0), Rgb(0.7f, 0.5f, 0.2f)}));
+  add_quad(faces, {0.35f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.6f}, {0.35f, 0.98f, 0.6f},
+           {Rgb(10, 9, 7), Rgb(0.3f)});
+  add_box_outward(faces, {0.2f, 0, 0.3f}, {0.5f, 0.45f, 0.6f}, make_surface(0, 0.6f));
+  fit_scene(faces);
+  return faces;
+}
+
 // One flat polygon of two quads, one of them skewed, and two triangles, whose first corners lie all about.
 inline FaceTable make_mixed_polygon(const Surface& surface) {
   FaceTable faces;

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kSmaller = 1 - 1e-5;
 constexpr double kOneAngle = 1e-6;        // of normals: 1 - cosine
-constexpr double kOnePlane = 2e-6;        // engine lengths: about a ray's offset; at most ...
-constexpr double kOnePlaneOwn = 1e-5;     // ... this share of the smaller one's size
+constexpr double kOnePlaneOwn = 1e-5;     // kOnePlane at most this share of the smaller one's size
 constexpr double kOverlapMin = 1e-5;      // share of the smaller polygon's area
 constexpr size_t kPairsMax = 5'000'000;   // of polygons that are compared
 constexpr size_t kWorkMax = 200'000'000;  // pairs of their faces and corners: what is beyond is not searched

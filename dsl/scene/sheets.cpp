@@ -4,6 +4,7 @@
 #include "dsl/polygons/flatten.h"
 #include "dsl/polygons/sheet.h"
 #include "dsl/report/text.h"
+#include "engine/base/sampling.h"
 #include "engine/base/union_find.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,6 @@
 
 namespace patchlight {
 namespace {
-
-constexpr double kNear = 2e-6;  // engine lengths: about a ray's offset
 
 // What a polygon is cut into instead.
 struct Recut {
@@ -93,18 +92,14 @@ std::vector<std::vector<uint32_t>> find_equals(const OutlineTable& outlines) {
     uint64_t hash;
     uint32_t polygon;
   };
-  const auto mix = [](uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-  };
   const auto ring = [&](uint32_t p) { return ring_of(outlines, outlines.polygon_first[p]); };
   std::vector<Row> rows(outlines.size());
   for (uint32_t p = 0; p < outlines.size(); ++p) {
     uint64_t sum = 0;  // a sum: the order of the corners does not matter
     for (const DVec3& c : ring(p))
-      sum += mix(mix(mix(std::bit_cast<uint64_t>(c.x + 0.0)) + std::bit_cast<uint64_t>(c.y + 0.0)) +
-                 std::bit_cast<uint64_t>(c.z + 0.0));
+      sum += mix_bits(
+          mix_bits(mix_bits(std::bit_cast<uint64_t>(c.x + 0.0)) + std::bit_cast<uint64_t>(c.y + 0.0)) +
+          std::bit_cast<uint64_t>(c.z + 0.0));
     rows[p] = {sum, p};
   }
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
@@ -193,7 +188,7 @@ void join_sheets(const ObjectTable& objects, const OutlineTable& outlines, const
   for (auto& [first, polygons] : groups) {
     std::sort(polygons.begin(), polygons.end());
     polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-    recut_group(objects, outlines, emits, polygons, kNear * length, table, recuts);
+    recut_group(objects, outlines, emits, polygons, kOnePlane * length, table, recuts);
   }
   for (std::vector<uint32_t> group : find_equals(outlines)) {
     std::erase_if(

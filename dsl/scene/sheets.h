@@ -9,6 +9,9 @@
 
 namespace patchlight {
 
+// What lies no further off a plane lies in it, engine lengths: about a ray's offset.
+constexpr double kOnePlane = 2e-6;
+
 // Two polygons in one plane, up to a ray's offset, that have area in common.
 struct Overlap {
   uint32_t small, large;  // rows of OutlineTable; of equals, but for rounding, the later one is the small one

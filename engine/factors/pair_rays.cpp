@@ -181,7 +181,6 @@ void cast_points(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer
   size_t pair = 0;
   const double exchange = pairs.exchange_until.back();
   for (size_t first = 0; first < scratch.points.size(); first += kPacketSize) {
-    uint32_t active = 0;
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       const std::array<double, 4>& point = scratch.points[first + k];
       const double at = point[0] * exchange;
@@ -190,8 +189,8 @@ void cast_points(PairSums& sums, const RayPairTable& pairs, const Tracer& tracer
       const double before = pair == 0 ? 0 : pairs.exchange_until[pair - 1];
       const double share = std::clamp((at - before) * pairs.exchange_inverse[pair], 0.0, 1 - 0x1p-53);
       weight[k] = make_ray(rays, ends, k, pairs, pair, share, point, scratch);
-      active |= (weight[k] > 0 ? 1u : 0u) << k;
     }
+    const uint32_t active = find_positive(weight);
     if (active == 0) continue;
     const uint32_t blocked = pairs.fine ? find_blocked_fine(*pairs.fine, ends, active)
                                         : find_blocked(tracer, rays, active, RayOrder::kIncoherent);

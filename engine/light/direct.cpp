@@ -77,7 +77,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
         GroupLook& look = looks[k - first];
         find_unoccluded(look, from, corners, groups, sights.group[k], sights.pieces[k]);
         unoccluded += look.strength;
-        if (groups.is_sky(sights.group[k]) && !groups.is_sun(sights.group[k])) sky += look.strength;
+        if (groups.is_sky_cells(sights.group[k])) sky += look.strength;
       }
       for (uint32_t k = first; k < last; ++k) {
         const GroupLook& look = looks[k - first];
@@ -87,7 +87,7 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
           continue;
         }
         // One packet for a group that is weak among many.
-        const bool of_sky = groups.is_sky(sights.group[k]) && !groups.is_sun(sights.group[k]);
+        const bool of_sky = groups.is_sky_cells(sights.group[k]);
         const bool weak = look.strength < (of_sky ? kWeakSky * sky : kWeakLamp * unoccluded);
         const uint32_t most = weak ? 1 : of_sky ? sky_packet_count : packet_count;
         const VisibilitySums sums = find_visibility(from, look, groups, sights.group[k], most, rays.unmixed);

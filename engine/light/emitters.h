@@ -48,6 +48,7 @@ struct EmitterGroups {
   bool is_sky(size_t group) const { return group >= lamp_group_count(); }
   // The row of `sky` of the first piece of a group of the sky.
   uint32_t sky_first(size_t group) const { return piece_first[group] - static_cast<uint32_t>(pieces.size()); }
+  bool is_sky_cells(size_t group) const { return is_sky(group) && !is_sun(group); }  // not the sun
   bool is_sun(size_t group) const { return is_sky(group) && sky.is_sun(sky_first(group)); }
   size_t size() const { return piece_first.empty() ? 0 : piece_first.size() - 1; }
   uint32_t piece_count(size_t group) const { return piece_first[group + 1] - piece_first[group]; }

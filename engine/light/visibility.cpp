@@ -58,7 +58,7 @@ void cast_pairs(VisibilitySums& sums, const ElementPoints& from, uint32_t packet
   const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
   for (uint32_t k = 0; k < kPacketSize; ++k) {
     if (!(active >> k & 1u)) continue;
-    const uint32_t half = (k ^ k >> 2) & 1;  // a chequerboard over the strata
+    const uint32_t half = find_half(k);
     sums.all[half] += kernel[k];
     if (!(blocked >> k & 1u)) sums.seen[half] += kernel[k];
   }

@@ -32,6 +32,9 @@ struct RayGrid {
   uint32_t ray_count() const { return columns * rows; }
 };
 RayGrid make_ray_grid(uint32_t rays);
+// Rays in two halves, a chequerboard over the strata of each packet: k and k ^ 5 are in one, k ^ 1 and k ^ 4
+// in the other.
+inline uint32_t find_half(size_t k) { return static_cast<uint32_t>((k ^ k >> 2) & 1); }
 
 // Points of the unit square for the sixteen rays of a packet: directions and origins.
 struct RaySamples {

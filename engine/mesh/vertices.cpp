@@ -74,12 +74,6 @@ uint64_t corner_key(uint32_t face, Vec2 uv, const FaceFrameTable& frames, const 
   return make_key(find_first_name({face, steps(uv.x), steps(uv.y)}, frames, links));
 }
 
-// The mean of the surface over a leaf: of its corners.
-Rgb mean_of_corners(const std::array<uint32_t, 4>& corner, bool triangle, std::span<const Rgb> values) {
-  const Rgb three = values[corner[0]] + values[corner[1]] + values[corner[2]];
-  return triangle ? three / 3.0f : (three + values[corner[3]]) * 0.25f;
-}
-
 }  // namespace
 
 VertexTable make_vertices(const PatchTable& leaves, const FaceFrameTable& frames,
@@ -170,7 +164,6 @@ std::vector<Rgb> reconstruct(const LeafSurface& surface, std::span<const Rgb> le
                              const ReconstructSettings& settings) {
   const VertexTable& vertices = surface.vertices;
   const PatchTable& leaves = surface.leaves;
-  const FaceFrameTable& frames = surface.frames;
   assert(leaf_values.size() == leaves.size());
   std::vector<Rgb> values(vertices.size(), Rgb(0)), low(vertices.size()), high(vertices.size());
   const auto leaf_weight = [&](uint32_t leaf) { return leaves.exposed[leaf] * leaves.exposed[leaf]; };
@@ -204,8 +197,7 @@ std::vector<Rgb> reconstruct(const LeafSurface& surface, std::span<const Rgb> le
   for (uint32_t step = 0; step < std::max(settings.sharpen_steps, settings.border_steps); ++step) {
     for_rows(leaves.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t row = begin; row < end; ++row)
-        missing[row] = leaf_values[row] -
-                       mean_of_corners(vertices.leaf_vertex[row], frames.triangle[leaves.face[row]], values);
+        missing[row] = leaf_values[row] - leaf_mean(surface, values, row);
     });
     for_rows(vertices.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) {

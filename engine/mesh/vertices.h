@@ -28,6 +28,14 @@ struct LeafSurface {
 std::vector<Rgb> reconstruct(const LeafSurface& surface, std::span<const Rgb> leaf_values,
                              const ReconstructSettings& settings);
 
+// The mean of the surface over a leaf: of its corners.
+inline Rgb leaf_mean(const LeafSurface& surface, std::span<const Rgb> vertex_values, size_t row) {
+  const auto& corner = surface.vertices.leaf_vertex[row];
+  const Rgb three = vertex_values[corner[0]] + vertex_values[corner[1]] + vertex_values[corner[2]];
+  return surface.frames.triangle[surface.leaves.face[row]] ? three / 3.0f
+                                                           : (three + vertex_values[corner[3]]) * 0.25f;
+}
+
 // The surface's value at (u, v) of the face of leaf `row`, which must hold that point.
 inline Rgb sample_surface(const LeafSurface& surface, std::span<const Rgb> vertex_values, uint32_t row,
                           Vec2 uv) {

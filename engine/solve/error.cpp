@@ -9,9 +9,6 @@
 namespace patchlight {
 namespace {
 
-// Of a normal error the mean absolute value is this share of the standard deviation.
-constexpr double kMeanOfError = 0.8;
-
 // How far each leaf's value is from the mean of the surface over it: where light bends more than the patches
 // follow, or has an edge, that is as much as the surface is off inside.
 std::vector<float> find_misfit(const LeafSurface& surface, std::span<const Rgb> leaf_values,
@@ -19,13 +16,8 @@ std::vector<float> find_misfit(const LeafSurface& surface, std::span<const Rgb> 
   const std::vector<Rgb> values = reconstruct(surface, leaf_values, settings);
   std::vector<float> misfit(leaf_values.size());
   for_rows(misfit.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row) {
-      const auto& corner = surface.vertices.leaf_vertex[row];
-      const bool triangle = surface.frames.triangle[surface.leaves.face[row]];
-      Rgb mean = values[corner[0]] + values[corner[1]] + values[corner[2]];
-      mean = triangle ? mean / 3.0f : 0.25f * (mean + values[corner[3]]);
-      misfit[row] = std::abs(mean_channel(leaf_values[row] - mean));
-    }
+    for (size_t row = begin; row < end; ++row)
+      misfit[row] = std::abs(mean_channel(leaf_values[row] - leaf_mean(surface, values, row)));
   });
   return misfit;
 }

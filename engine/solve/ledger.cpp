@@ -42,7 +42,7 @@ uint32_t find_swallowed(const HitPacket& packet, uint32_t lit, const Solution& s
       probe.origin_x[k] = start.x, probe.origin_y[k] = start.y, probe.origin_z[k] = start.z;
       buried = find_buried(surfaces, make_frame(normal), probe, 1u << k) != 0;
     }
-    swallowed |= (buried ? 1u : 0u) << k;
+    if (buried) swallowed |= 1u << k;
   }
   return swallowed;
 }
@@ -58,7 +58,8 @@ Shares find_emission_shares(const CellRays& rays, const Solution& s) {
       make_ray_packet(packet, rays, surfaces.frames, static_cast<uint32_t>(tile));
       find_hits(surfaces.tracer, packet, 0xffff);
       uint32_t hit = 0;
-      for (uint32_t k = 0; k < kPacketSize; ++k) hit |= (packet.face[k] != kNone ? 1u : 0u) << k;
+      for (uint32_t k = 0; k < kPacketSize; ++k)
+        if (packet.face[k] != kNone) hit |= 1u << k;
       uint32_t backs = find_backs(packet, surfaces.faces, 0xffff);
       backs |= find_swallowed(packet, hit & ~backs, s);
       nothing[tile] = static_cast<uint32_t>(std::popcount(~hit & 0xffff));
@@ -123,7 +124,6 @@ DRgb measure_sun(const CellRays& rays, const Surfaces& surfaces) {
     RaySamples samples;
     make_ray_samples(samples, rays.key, rays.grid, tile);
     RayPacket& r = packet.ray;
-    uint32_t active = 0;
     double weight[kPacketSize];
     for (uint32_t k = 0; k < kPacketSize; ++k) {
       const Vec3 disc = make_cosine_direction(samples.direction_x[k], samples.direction_y[k]);
@@ -131,8 +131,8 @@ DRgb measure_sun(const CellRays& rays, const Surfaces& surfaces) {
       const Vec3 way = x * frame.tangent + y * frame.bitangent + along * frame.normal;
       r.direction_x[k] = way.x, r.direction_y[k] = way.y, r.direction_z[k] = way.z;
       weight[k] = double{dot(way, rays.frame.normal)} / double{along};
-      active |= (weight[k] > 0 ? 1u : 0u) << k;
     }
+    uint32_t active = find_positive(weight);
     active &= ~find_blocked(surfaces.tracer, r, active);
     for (uint32_t k = 0; k < kPacketSize; ++k)
       if (active >> k & 1u) sum += weight[k];

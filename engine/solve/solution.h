@@ -15,6 +15,9 @@ namespace patchlight {
 constexpr ReconstructSettings kDirectSurface{.sharpen_steps = 3, .border_steps = 3};
 constexpr ReconstructSettings kIndirectSurface{.sharpen_steps = 0, .border_steps = 2};
 
+// Of a normal error the mean absolute value is this share of the standard deviation.
+constexpr double kMeanOfError = 0.8;
+
 // The rows of the patches, for kernels that gather.
 Rows get_rows(const Solution& solution);
 

@@ -18,8 +18,6 @@ constexpr uint32_t kSourceCount = 400;
 
 // What patches receive is smoothed by 32 steps at most (smoothing.h).
 constexpr uint32_t kBounceStrengths = 7;
-// The mean absolute value of a normal error of standard deviation 1.
-constexpr double kMeanOfError = 0.8;
 // Of the error asked for, what noise of bounced light may take.
 constexpr double kRowsOfError = 0.5, kLaterOfError = 0.1;
 // Where more rays are asked for, so many times as many as a row has; so often at most; over all receivers not
@@ -74,35 +72,39 @@ std::vector<uint8_t> pick_noisy(std::span<const double> error_power, double targ
   return asked;
 }
 
-// Smooths what patches receive of a bounce; returns the error that is left.
-std::vector<float> smooth_bounce(const Solution& s, std::span<Rgb> received,
-                                 std::span<const Rgb> difference) {
-  std::vector<float> noise(received.size()), error(received.size());
+// What patches receive of a bounce, smoothed, W/m2, and the error that is left.
+struct SmoothBounce {
+  std::vector<Rgb> received;
+  std::vector<float> error;
+};
+SmoothBounce smooth_bounce(const Solution& s, const std::vector<Rgb>& received,
+                           std::span<const Rgb> difference) {
+  SmoothBounce bounce{received, std::vector<float>(received.size())};
+  std::vector<float> noise(received.size());
   for (size_t p = 0; p < noise.size(); ++p) noise[p] = mean_channel(difference[p]);
-  const std::vector<Rgb> before(received.begin(), received.end());
-  smooth_noise({received, noise, error}, s.transport.smoothing, kBounceStrengths);
-  keep_power(received, before, s.transport.smoothing, s.mesh.patches, s.surfaces->faces);
-  return error;
+  smooth_noise({bounce.received, noise, bounce.error}, s.transport.smoothing, kBounceStrengths);
+  keep_power(bounce.received, received, s.transport.smoothing, s.mesh.patches, s.surfaces->faces);
+  return bounce;
 }
 
-// What patches receive of the first bounce, which bright places make noisy: with the rays of the rows, then
-// with more where their noise is more than the error asked for leaves to it. Returns the rays of both kinds.
-uint64_t gather_second(Solution& s, std::span<Rgb> noise) {
+// What patches receive of light that bright places make noisy: with the rays of the rows and aimed ones, then
+// with more where their noise is more than the error asked for leaves to it. ray_count: raised by all but the
+// rows'.
+SmoothBounce gather_aimed(const Solution& s, uint64_t& ray_count) {
   const Rows rows = get_rows(s);
   const Elements elements{s.mesh.elements, s.mesh.element_first};
   const std::span<const Rgb> sent = s.mesh.elements.unshot;
   const SourceTable sources = make_sources(s.mesh.elements, *s.surfaces, sent, kSourceCount);
-  const std::span<Rgb> received = s.light.smooth_added;
-  uint64_t aimed = gather_elements(received, noise, rows, elements, sent, sources);
+  std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
+  ray_count += gather_elements(received, noise, rows, elements, sent, sources);
+  SmoothBounce bounce = smooth_bounce(s, received, noise);
   const size_t count = s.transport.receivers.size(), patch_count = received.size();
   const double target = kRowsOfError * s.settings.error * find_sent_power(s);
   size_t rows_left = kMoreRaysMax * count / kMoreRays;
   std::vector<float> rays_of(count, 1);  // so many times those of a row
   for (uint64_t round = 1; round <= kMoreRounds; ++round) {
-    std::vector<Rgb> smoothed(received.begin(), received.end());
-    const std::vector<float> error = smooth_bounce(s, smoothed, noise);
     const double gain = 1 - std::sqrt(1.0 / (1 + kMoreRays));
-    const std::vector<uint8_t> asked = pick_noisy(find_error_power(s, error), target, gain, rows_left);
+    const std::vector<uint8_t> asked = pick_noisy(find_error_power(s, bounce.error), target, gain, rows_left);
     const auto asked_count = static_cast<size_t>(std::count(asked.begin(), asked.end(), 1));
     if (asked_count == 0) break;
     rows_left -= asked_count;
@@ -115,9 +117,8 @@ uint64_t gather_second(Solution& s, std::span<Rgb> noise) {
     by.seed = mix_bits(s.settings.seed + (round << 32));
     again.ray_count = by.grid.ray_count();
     std::vector<Rgb> more(patch_count), more_noise(patch_count);
-    const uint64_t more_aimed =
-        gather_elements(more, more_noise, {by, again}, elements, sent, sources, asked);
-    aimed += more_aimed + uint64_t{again.ray_count} * asked_count;
+    ray_count += gather_elements(more, more_noise, {by, again}, elements, sent, sources, asked) +
+                 uint64_t{again.ray_count} * asked_count;
     for (size_t p = 0; p < patch_count; ++p) {
       const uint32_t receiver = s.transport.receivers.receiver_of[p];
       if (!asked[receiver]) continue;
@@ -127,8 +128,28 @@ uint64_t gather_second(Solution& s, std::span<Rgb> noise) {
     }
     for (size_t row = 0; row < count; ++row)
       if (asked[row]) rays_of[row] += kMoreRays;
+    bounce = smooth_bounce(s, received, noise);
   }
-  return aimed;
+  return bounce;
+}
+
+// The first pass: emission that rows meet.
+SmoothBounce gather_first(const Solution& s) {
+  std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
+  gather_emission(received, noise, get_rows(s), s.transport.aiming);
+  return smooth_bounce(s, received, noise);
+}
+
+// The third pass and later ones: the rows' own rays; where light is still so uneven that they are too noisy,
+// it is aimed at once more.
+SmoothBounce gather_later(const Solution& s, uint64_t& ray_count) {
+  std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
+  gather_patches(received, noise, get_rows(s), s.mesh.patches.unshot);
+  SmoothBounce bounce = smooth_bounce(s, received, noise);
+  double error = 0;
+  for (const double power : find_error_power(s, bounce.error)) error += power;
+  if (error <= kLaterOfError * s.settings.error * find_sent_power(s)) return bounce;
+  return gather_aimed(s, ray_count);
 }
 
 }  // namespace
@@ -138,37 +159,27 @@ const PassReport& advance(Solution& s) {
   Stopwatch watch;
   if (!s.mesh.frozen) freeze(s);
   const FaceTable& faces = s.surfaces->faces;
-  const Rows rows = get_rows(s);
-  std::vector<Rgb> difference(s.mesh.patches.size());
   PassReport report;
   report.pass = static_cast<uint32_t>(s.log.passes.size()) + 1;
+  uint64_t aimed = 0;
+  SmoothBounce bounce;
   if (report.pass == 1) {
     s.light.sharp = s.light.direct;
-    gather_emission(s.light.smooth_added, difference, rows, s.transport.aiming);
+    bounce = gather_first(s);
     report.ray_count = s.log.direct_ray_count;
     s.log.factor_count += count_factors(s);
   } else if (report.pass == 2) {
-    const uint64_t aimed = gather_second(s, difference);
-    s.log.transport_ray_count += aimed;
-    s.log.factor_count += aimed;
-    report.ray_count = aimed + uint64_t{s.transport.hits.ray_count} * s.transport.receivers.size();
+    bounce = gather_aimed(s, aimed);
+    report.ray_count = uint64_t{s.transport.hits.ray_count} * s.transport.receivers.size();
   } else {
-    const std::vector<Rgb> sent = s.mesh.patches.unshot;
-    gather_patches(s.light.smooth_added, difference, rows, sent);
-    // Where light is still so uneven that rows alone are too noisy, it is aimed at once more.
-    std::vector<Rgb> smoothed = s.light.smooth_added;
-    double noise = 0;
-    for (const double power : find_error_power(s, smooth_bounce(s, smoothed, difference))) noise += power;
-    if (noise > kLaterOfError * s.settings.error * find_sent_power(s)) {
-      const uint64_t aimed = gather_second(s, difference);
-      s.log.transport_ray_count += aimed;
-      s.log.factor_count += aimed;
-      report.ray_count = aimed;
-    }
+    bounce = gather_later(s, aimed);
   }
-  const std::vector<float> error = smooth_bounce(s, s.light.smooth_added, difference);
+  report.ray_count += aimed;
+  s.log.transport_ray_count += aimed;
+  s.log.factor_count += aimed;
+  s.light.smooth_added = std::move(bounce.received);
   for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
-    s.light.smooth_error[p] += error[p];
+    s.light.smooth_error[p] += bounce.error[p];
     s.light.smooth[p] += s.light.smooth_added[p];
     s.mesh.patches.unshot[p] = faces.reflectance[s.mesh.patches.face[p]] * s.light.smooth_added[p];
     s.mesh.patches.radiosity[p] += s.mesh.patches.unshot[p];

@@ -35,7 +35,8 @@ struct alignas(64) HitPacket {
 
 // Which of sixteen values are above 0: a bit each. Not by shifts: gcc 12 with -fsanitize=shift turns such a
 // loop into a test of the first value alone.
-inline uint32_t find_positive(const float (&values)[kPacketSize]) {
+template <typename Values>
+uint32_t find_positive(const Values& values) {
   uint32_t bits = 0;
   for (uint32_t k = kPacketSize; k-- > 0;) bits = 2 * bits + (values[k] > 0 ? 1 : 0);
   return bits;

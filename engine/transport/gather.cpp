@@ -280,8 +280,6 @@ struct Halves {
   Rgb difference() const { return half[0] - half[1]; }
   void operator*=(float factor) { half[0] *= factor, half[1] *= factor; }
 };
-// Rays in two halves, a chequerboard over their strata: k and k ^ 5 are in one, k ^ 1 and k ^ 4 in the other.
-uint32_t find_half(size_t k) { return static_cast<uint32_t>((k ^ k >> 2) & 1); }
 
 // The part of the aimed rays; the mean over their count.
 Halves gather_aimed(const Place& place, const AimShares& shares, const Bounce& b, uint64_t& ray_count) {

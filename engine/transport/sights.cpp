@@ -217,7 +217,7 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         sums[g] = groups.is_sky(g)
                       ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
                       : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
-        if (groups.is_sky(g) && !groups.is_sun(g)) sky_sum += sums[g];
+        if (groups.is_sky_cells(g)) sky_sum += sums[g];
       }
       const bool single = receivers.first[r + 1] - receivers.first[r] == 1;
       looks.assign(group_count, {});
@@ -241,15 +241,13 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         glimpsed_count += glimpsed[g];
       }
       for (size_t g = group_first; g < group_count; ++g) {
-        const bool sun = groups.is_sun(g);
-        if (is_below(g) || (groups.is_sky(g) && !sun &&
+        if (is_below(g) || (groups.is_sky_cells(g) &&
                             std::none_of(beside_group[g].begin(), beside_group[g].end(), is_glimpsed))) {
           rays += looks[g].rays;
           continue;
         }
         // A spot of the sun may be small on a large patch, and is bright.
-        const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
-        look_at(g, groups.is_sky(g) ? kGlancePackets : 0, first_packets);
+        look_at(g, groups.is_sky(g) ? kGlancePackets : 0, groups.is_sun(g) ? kMixedPackets : kFirstPackets);
         is_looked_at[g] = 1;
       }
       // What is hidden, however strong, says nothing of what counts.
@@ -258,14 +256,13 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         if (looks[g].arrived > 0) all += sums[g];
       for (size_t g = group_first; g < group_count; ++g) {
         if (!is_looked_at[g]) continue;
-        const bool sun = groups.is_sun(g);
         const Look& sum = looks[g];
-        const uint32_t first_packets = sun ? kMixedPackets : kFirstPackets;
         // Through a window few groups of the sky are seen, and all of them count.
-        const bool weak = groups.is_sky(g) && !sun
+        const bool weak = groups.is_sky_cells(g)
                               ? glimpsed_count > kFewGroups && sums[g] < kWeakShare * sky_sum
                               : sums[g] < kWeakShare * all;
-        if (!weak && sum.rays > 0 && sum.arrived < sum.rays) look_at(g, first_packets, kMixedPackets);
+        if (!weak && !groups.is_sun(g) && sum.rays > 0 && sum.arrived < sum.rays)
+          look_at(g, kFirstPackets, kMixedPackets);
         rays += sum.rays;
         seen[r * group_count + g] = sum.reached;
         clear[r * group_count + g] = sum.rays > 0 && sum.arrived == sum.rays && !buried;

@@ -11,16 +11,6 @@ using namespace patchlight;
 
 namespace {
 
-FaceTable make_lit_room() {
-  FaceTable faces;
-  add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces({Rgb(0), Rgb(0.7f, 0.5f, 0.2f)}));
-  add_quad(faces, {0.35f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.6f}, {0.35f, 0.98f, 0.6f},
-           {Rgb(10, 9, 7), Rgb(0.3f)});
-  add_box_outward(faces, {0.2f, 0, 0.3f}, {0.5f, 0.45f, 0.6f}, make_surface(0, 0.6f));
-  fit_scene(faces);
-  return faces;
-}
-
 // Mean absolute difference of two solutions on one mesh over the mean of what surfaces send on.
 double find_difference(const Solution& a, const Solution& b) {
   double difference = 0, sent = 0;
@@ -37,13 +27,13 @@ double find_difference(const Solution& a, const Solution& b) {
 }  // namespace
 
 TEST_CASE("error: nothing is told before the first pass") {
-  Solution run = solve_scene(make_lit_room(), {}, 0);
+  Solution run = solve_scene(make_furnished_room(), {}, 0);
   freeze(run);
   CHECK(find_error(run).whole.estimate() == 0);
 }
 
 TEST_CASE("error: the parts of polygons add up to the whole") {
-  const Solution run = solve_scene(make_lit_room(), {}, 16);
+  const Solution run = solve_scene(make_furnished_room(), {}, 16);
   const ErrorTable error = find_error(run);
   ErrorParts sum;
   for (const ErrorParts& parts : error.polygon) {
@@ -62,9 +52,9 @@ TEST_CASE("error: the noise of rows that is told is about what another seed show
   // Patches of one size, so that other samples do not make another mesh.
   settings.patch_size = settings.patch_size_min = 0.1f;
   settings.threshold = 1;
-  const Solution a = solve_scene(make_lit_room(), settings, 16);
+  const Solution a = solve_scene(make_furnished_room(), settings, 16);
   settings.seed = 2;
-  const Solution b = solve_scene(make_lit_room(), settings, 16);
+  const Solution b = solve_scene(make_furnished_room(), settings, 16);
   REQUIRE(a.mesh.patches.size() == b.mesh.patches.size());
   const double told = find_error(a).whole.noise_rows, seen = find_difference(a, b) / std::sqrt(2);
   // The promise is a factor of 2; it holds for one room out of many with the luck of its two seeds.
@@ -74,7 +64,7 @@ TEST_CASE("error: the noise of rows that is told is about what another seed show
 
 TEST_CASE("error: a smaller one that is asked for gives a smaller one") {
   SolverSettings settings;
-  const double usual = find_error(solve_scene(make_lit_room(), settings, 16)).whole.estimate();
+  const double usual = find_error(solve_scene(make_furnished_room(), settings, 16)).whole.estimate();
   settings.error = 0.004;
-  CHECK(find_error(solve_scene(make_lit_room(), settings, 16)).whole.estimate() < usual);
+  CHECK(find_error(solve_scene(make_furnished_room(), settings, 16)).whole.estimate() < usual);
 }

@@ -9,22 +9,8 @@
 
 using namespace patchlight;
 
-namespace {
-
-FaceTable make_lit_room() {
-  FaceTable faces;
-  add_box_inward(faces, Vec3(0), Vec3(1), make_box_surfaces({Rgb(0), Rgb(0.7f, 0.5f, 0.2f)}));
-  add_quad(faces, {0.35f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.4f}, {0.6f, 0.98f, 0.6f}, {0.35f, 0.98f, 0.6f},
-           {Rgb(10, 9, 7), Rgb(0.3f)});
-  add_box_outward(faces, {0.2f, 0, 0.3f}, {0.5f, 0.45f, 0.6f}, make_surface(0, 0.6f));
-  fit_scene(faces);
-  return faces;
-}
-
-}  // namespace
-
 TEST_CASE("ledger: before the first pass all power is unshot") {
-  const FaceTable faces = make_lit_room();
+  const FaceTable faces = make_furnished_room();
   Solution run = solve_scene(faces, {}, 0);
   freeze(run);
   const PowerLedger ledger = find_power_ledger(run);
@@ -36,7 +22,7 @@ TEST_CASE("ledger: before the first pass all power is unshot") {
 }
 
 TEST_CASE("ledger: it closes within 3e-3 at the defaults after every pass") {
-  const FaceTable faces = make_lit_room();
+  const FaceTable faces = make_furnished_room();
   const SolverSettings settings;
   Solution run = solve_scene(faces, settings, 0);
   for (const uint32_t pass : {1u, 2u, 3u, 16u}) {
@@ -84,7 +70,7 @@ TEST_CASE("ledger: a lone lamp loses all of its power, a back side takes what it
 }
 
 TEST_CASE("ledger: power does not depend on how finely the scene is split") {
-  const FaceTable faces = make_lit_room();
+  const FaceTable faces = make_furnished_room();
   double emitted[2], absorbed[2];
   for (int fine = 0; fine < 2; ++fine) {
     SolverSettings settings;
