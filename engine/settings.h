@@ -15,7 +15,7 @@ struct SolverSettings {
   float threshold = 0.1f;    // neighbours that differ by a larger share of the larger one are split
   float threshold_indirect = 0;  // the same of the patches that carry light between surfaces; 0: automatic
   uint64_t patch_count_max = 200000;  // the budget of patches (elements)
-  uint32_t rays = 256;                // rays a row; more: less noise, more time
+  uint32_t rays = 144;                // rays a row; more: less noise, more time
   float quality = 1;    // times the rays and finer patches at once: about so many times the time; less error
   double error = 0.01;  // asked for, mean over mean: a smaller one takes more rays where noise is largest
   uint64_t seed = 1;    // another seed, other samples

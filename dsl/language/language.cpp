@@ -150,7 +150,7 @@ constexpr KeyRow kSolverRows[] = {
     {"threshold", kNumber, false, "0.1", 0, 1, "out-of-range", "",
      "Neighbours that differ by more than this share of the larger one are split."},
     {"max_patches", kInteger, false, "200000", 1, 1e9, "out-of-range", "", "The budget of patches."},
-    {"rays", kInteger, false, "256", 1, 1e6, "out-of-range", "", "Rays a row of form factors."},
+    {"rays", kInteger, false, "144", 1, 1e6, "out-of-range", "", "Rays a row of form factors."},
     {"error", kNumber, false, "0.01", kErrorMin, kErrorMax, "out-of-range", "",
      "What the light may be off by, mean over mean: less takes more rays and smaller patches."},
     {"quality", kNumber, false, "1", kQualityMin, kQualityMax, "out-of-range", "",

@@ -12,11 +12,12 @@
 namespace patchlight {
 namespace {
 
-// A lamp that gives less than this share of an element's light, blockers aside, gets no more than one packet.
-constexpr double kWeakLamp = 0.06;
-// The same of a group of the sky's cells beside the sky alone: in the shade the sun says nothing of what
-// counts.
-constexpr double kWeakSky = 0.1;
+// A group that gives less than this share of an element's light, blockers aside, gets one packet at first.
+// Cells of the sky are compared with the sky alone: in the shade the sun says nothing of what counts.
+constexpr double kWeakGroup = 0.1;
+// Rays of all groups together beyond the first ones, in those that one group may have: two that are seen in
+// part, as bright as one another, take all they may.
+constexpr double kMixedGroups = 2;
 
 }  // namespace
 
@@ -50,13 +51,13 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
     return std::clamp((ray_count + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
   };
   const uint32_t packet_count = count_packets(rays.mixed);
-  const uint32_t sky_packet_count = count_packets(rays.mixed_sky);
-  const uint32_t most_packets =
-      groups.sky_group_count > 0 ? std::max(packet_count, sky_packet_count) : packet_count;
+  const uint32_t first_packets = std::min(count_packets(rays.unmixed), packet_count);
   std::atomic<uint64_t> ray_count{0};
   for_rows(rows.size(), 64, [&](size_t begin, size_t end) {
-    ElementPoints from(scene.surfaces, elements, most_packets);
+    ElementPoints from(scene.surfaces, elements, packet_count);
     std::vector<GroupLook> looks;
+    std::vector<VisibilitySums> sums;
+    std::vector<double> doubts;  // standard errors of a ray, W/m2
     uint64_t cast = 0;
     for (size_t r = begin; r < end; ++r) {
       const uint32_t row = rows[r], receiver = scene.receivers.receiver_of[scene.mesh.element_patch[row]];
@@ -70,35 +71,46 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
       make_packets(from, 1);
       if (from.open[0] == 0) continue;
       const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
-      // What each group would give if nothing were in its way, and all of them together.
+      // What each group would give if nothing were in its way, and whether something is.
       looks.resize(last - first);
-      double unoccluded = 0, sky = 0;
-      for (uint32_t k = first; k < last; ++k) {
-        GroupLook& look = looks[k - first];
-        find_unoccluded(look, from, corners, groups, sights.group[k], sights.pieces[k]);
-        unoccluded += look.strength;
-        if (groups.is_sky_cells(sights.group[k])) sky += look.strength;
+      sums.assign(last - first, {});
+      doubts.assign(last - first, 0);
+      double unoccluded = 0, sky = 0, all_doubts = 0;
+      for (uint32_t k = 0; k < last - first; ++k) {
+        find_unoccluded(looks[k], from, corners, groups, sights.group[first + k], sights.pieces[first + k]);
+        unoccluded += looks[k].strength;
+        if (groups.is_sky_cells(sights.group[first + k])) sky += looks[k].strength;
       }
-      for (uint32_t k = first; k < last; ++k) {
-        const GroupLook& look = looks[k - first];
+      for (uint32_t k = 0; k < last - first; ++k) {
+        const uint32_t group = sights.group[first + k];
+        if (looks[k].strength <= 0 || sights.clear[first + k]) continue;
+        const double all = groups.is_sky_cells(group) ? sky : unoccluded;
+        add_visibility(sums[k], from, looks[k], groups, group, 0,
+                       looks[k].strength < kWeakGroup * all ? 1 : first_packets);
+        if (!sums[k].mixed() && !rays.sure) continue;
+        doubts[k] = looks[k].strength * std::sqrt(sums[k].variance());
+        all_doubts += doubts[k];
+      }
+      for (uint32_t k = 0; k < last - first; ++k) {
+        const GroupLook& look = looks[k];
         if (look.strength <= 0) continue;
-        if (sights.clear[k]) {
+        if (sights.clear[first + k]) {
           irradiance += look.irradiance;
           continue;
         }
-        // One packet for a group that is weak among many.
-        const bool of_sky = groups.is_sky_cells(sights.group[k]);
-        const bool weak = look.strength < (of_sky ? kWeakSky * sky : kWeakLamp * unoccluded);
-        const uint32_t most = weak ? 1 : of_sky ? sky_packet_count : packet_count;
-        const VisibilitySums sums = find_visibility(from, look, groups, sights.group[k], most, rays.unmixed);
-        cast += sums.rays;
-        irradiance += sums.share() * look.irradiance;
-        out.noise[row] += sums.noise() * mean_channel(look.irradiance);
-        // Stratification makes N pairs worth about 3 N random ones (measured on half screens). Where all N
-        // agree, one more might not have.
-        const double visible = (sums.reached + 0.5) / (sums.rays + 1.0);
+        if (doubts[k] > 0) {
+          // More rays where they take most variance away (Neyman's allocation).
+          const double share = std::min(kMixedGroups * doubts[k] / all_doubts, 1.0);
+          const auto more = static_cast<uint32_t>(std::lround(share * (packet_count - first_packets)));
+          const uint32_t had = sums[k].packets;
+          add_visibility(sums[k], from, look, groups, sights.group[first + k], had, had + more);
+        }
+        cast += sums[k].rays;
+        irradiance += sums[k].share() * look.irradiance;
+        out.noise[row] += sums[k].noise() * mean_channel(look.irradiance);
+        // Stratification makes N pairs worth about 3 N random ones (measured on half screens).
         variance +=
-            double{look.strength} * look.strength * visible * (1 - visible) / (3.0 * std::max(sums.rays, 1u));
+            double{look.strength} * look.strength * sums[k].variance() / (3.0 * std::max(sums[k].rays, 1u));
       }
       out.irradiance[row] = irradiance;
       out.error[row] = static_cast<float>(std::sqrt(variance));

@@ -30,11 +30,12 @@ struct DirectScene {
 };
 
 // Rays for an element and a group of emitters: `unmixed` while they agree, up to `mixed` where some arrive
-// and some do not.
+// and some do not; twice `mixed` for all groups together, shared out by what each leaves in doubt. sure: also
+// where they agree: of an emitter of which little is seen, the first rays may have found nothing, and an
+// estimate that ends there is too low on average.
 struct DirectRays {
   uint32_t unmixed = 16, mixed = 64;
-  // `mixed` for a group of the sky: of what a narrow window leaves of its cells most may be hidden.
-  uint32_t mixed_sky = 64;
+  bool sure = false;
 };
 
 // Direct light of the elements `rows`; others are not touched. No rays where a group is in clear sight.

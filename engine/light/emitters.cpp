@@ -37,17 +37,30 @@ Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const
                   cell_area(frames, face, cell, level),
                   0,
                   Vec2(0),
-                  frames.affine[face] && !frames.triangle[face],
+                  {},
                   {}};
   for (size_t a = 0; a < emitter.corner_count; ++a)
     for (size_t b = 0; b < a; ++b)
       emitter.diameter = std::max(emitter.diameter, distance(emitter.corners[a], emitter.corners[b]));
-  for (size_t k = 0; k < 4; ++k)
-    emitter.gauss[k] =
-        face_point(frames, face, place.origin + place.size * Vec2(kGauss[k % 2], kGauss[k / 2]));
   if (!frames.affine[face])
     emitter.twist = {dot(frames.twist[face], frames.dual_u[face]),
                      dot(frames.twist[face], frames.dual_v[face])};
+  // Of a square, and of a triangle (Strang, Fix: An Analysis of the Finite Element Method, 1973, table 4.1).
+  constexpr float kTriangle[4][3] = {{1 / 3.0f, 1 / 3.0f, -27 / 48.0f},
+                                     {0.6f, 0.2f, 25 / 48.0f},
+                                     {0.2f, 0.6f, 25 / 48.0f},
+                                     {0.2f, 0.2f, 25 / 48.0f}};
+  const bool triangle = frames.triangle[face];
+  float all = 0;
+  for (size_t k = 0; k < 4; ++k) {
+    const Vec2 in_cell =
+        triangle ? Vec2(kTriangle[k][0], kTriangle[k][1]) : Vec2(kGauss[k % 2], kGauss[k / 2]);
+    const Vec2 uv = place.origin + place.size * in_cell;
+    emitter.gauss[k] = face_point(frames, face, uv);
+    all += emitter.gauss_area[k] =
+        triangle ? kTriangle[k][2] : 1 + uv.y * emitter.twist.x + uv.x * emitter.twist.y;
+  }
+  for (float& area : emitter.gauss_area) area *= emitter.area / all;
   return emitter;
 }
 
@@ -59,18 +72,17 @@ float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter) {
     if (dot(way, normal) <= 0 || cosines <= 0) return 0;
     return cosines * emitter.area / (kPi * distance_squared * distance_squared);
   }
-  if (emitter.is_parallelogram &&
-      emitter.diameter * emitter.diameter < kNearbyEmitter * kNearbyEmitter * distance_squared) {
+  if (emitter.diameter * emitter.diameter < kNearbyEmitter * kNearbyEmitter * distance_squared) {
     float sum = 0;
     bool above = true;
-    for (const Vec3& p : emitter.gauss) {
-      const Vec3 to = p - point;
+    for (size_t k = 0; k < 4; ++k) {
+      const Vec3 to = emitter.gauss[k] - point;
       const float squared = dot(to, to), cosine = dot(to, normal);
       // The corners lie 1.74 times as far out as these points: near the horizon the closed form cuts them.
       above &= cosine > emitter.diameter;
-      sum += cosine * -dot(to, emitter.normal) / (squared * squared);
+      sum += emitter.gauss_area[k] * cosine * -dot(to, emitter.normal) / (squared * squared);
     }
-    if (above) return std::max(sum * emitter.area / (4 * kPi), 0.0f);
+    if (above) return std::max(sum / kPi, 0.0f);
   }
   return static_cast<float>(find_point_form_factor(DVec3(point), DVec3(normal),
                                                    std::span(emitter.corners).first(emitter.corner_count)));
@@ -106,7 +118,8 @@ struct Lit {
 // How wide a cell looks from about the nearest of what reflects.
 float find_angle(const FaceFrameTable& frames, const CellName& name, const Lit& lit) {
   const auto corners = cell_corners(frames, name.face, name.cell, name.level);
-  const float diameter = std::max(distance(corners[0], corners[2]), distance(corners[1], corners[3]));
+  const float diameter =
+      std::max({distance(corners[0], corners[2]), distance(corners[1], corners[3]), longest_edge(corners)});
   const Vec3 centre = cell_centre(frames, name.face, name.cell, name.level);
   return std::min(diameter / (0.15f * lit.scale + distance(clamp(centre, lit.low, lit.high), centre)), 2.0f);
 }
@@ -202,14 +215,15 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
   }
   EmitterGroups groups;
   groups.piece_first.push_back(0);
-  std::vector<uint32_t> ends;
+  std::vector<uint32_t> ends;  // of the groups' pieces
   const auto emission_of = [&](const PieceName& name) { return luminance(faces.emission[name.face]); };
   std::stable_sort(names.begin(), names.end(),
                    [&](const PieceName& a, const PieceName& b) { return emission_of(a) > emission_of(b); });
   for (uint32_t first = 0, last = 0; first < names.size(); first = last) {
-    while (last < names.size() && emission_of(names[last]) * kGroupEmission >= emission_of(names[first]))
-      ++last;
+    const float brightest = emission_of(names[first]);
+    while (last < names.size() && emission_of(names[last]) * kGroupEmission >= brightest) ++last;
     split_group(names, first, last, ends);
+    groups.brightest.resize(ends.size(), brightest);
   }
   for (const uint32_t end : ends) {
     std::sort(

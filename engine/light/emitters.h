@@ -21,8 +21,9 @@ struct Emitter {
   uint32_t corner_count;
   float area, diameter;
   Vec2 twist;  // of the bilinear map in the basis of its edges: the Jacobian is 1 + v x + u y
-  bool is_parallelogram;
-  std::array<Vec3, 4> gauss;  // points of Gauss's rule, exact to the third degree; parallelograms only
+  // Points of a rule that is exact to the third degree, and their areas.
+  std::array<Vec3, 4> gauss;
+  std::array<float, 4> gauss_area;
 };
 
 Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
@@ -36,6 +37,8 @@ struct EmitterGroups {
   std::vector<Emitter> pieces;
   std::vector<Rgb> emission;          // a row a piece, W/m2
   std::vector<uint32_t> piece_first;  // CSR: group -> its pieces, at most kGroupPiecesMax of them
+  // A row a group of lamps, falling: what pieces as bright as these emit at most (W/m2, luminance).
+  std::vector<float> brightest;
   // The pieces once more, as columns for loops over lanes.
   std::vector<float> x, y, z;                       // lengths: centres
   std::vector<float> normal_x, normal_y, normal_z;  // times area and luminance over pi

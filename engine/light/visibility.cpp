@@ -54,6 +54,7 @@ float find_gap(Vec3 point, const Emitter& emitter, const FaceFrameTable& frames)
 void cast_pairs(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, RayPacket& rays,
                 const float (&kernel)[kPacketSize]) {
   const uint32_t active = find_positive(kernel) & from.open[packet];
+  ++sums.packets;
   if (!active) return;
   const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
   for (uint32_t k = 0; k < kPacketSize; ++k) {
@@ -111,7 +112,7 @@ template <typename Add>
 VisibilitySums sum_packets(ElementPoints& from, uint32_t packet_count, uint32_t unmixed, const Add& add) {
   VisibilitySums sums;
   for (uint32_t packet = 0; packet < packet_count; ++packet) {
-    if (packet >= unmixed / kPacketSize && (sums.reached == 0 || sums.reached == sums.rays)) break;
+    if (packet >= unmixed / kPacketSize && !sums.mixed()) break;
     make_packets(from, packet + 1);
     add(sums, packet);
   }
@@ -177,7 +178,11 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
     return sum / static_cast<float>(std::popcount(usable));
   }
   const Vec3 centre = cell_centre(frames, face, code, own_level);
-  const float edge = longest_edge(corners), gap = find_gap(centre, emitter, frames);
+  const float edge = longest_edge(corners);
+  // At least; the nearest point itself takes longer to find.
+  if (distance(centre, emitter.centre) - emitter.diameter > kNearEmitter * edge)
+    return find_point_factor(centre, normal, emitter);
+  const float gap = find_gap(centre, emitter, frames);
   if (gap > kNearEmitter * edge) return find_point_factor(centre, normal, emitter);
   // Very near, where the factor changes much over the element, parts of it each take the rule.
   const uint32_t parts_level = gap > 3 * edge ? 0 : gap > edge ? 1 : gap > 0.3f * edge ? 2 : 3;
@@ -290,8 +295,8 @@ PickedPiece pick_piece(const ElementPoints& from, uint32_t packet, uint32_t k, c
 }
 
 // Adds one packet of rays from the element's points to cells of the sky, or to the sun, and on for ever.
-void add_sky_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet,
-                        const GroupLook& look, const EmitterGroups& groups, uint32_t group) {
+void add_sky_packet(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
+                    const EmitterGroups& groups, uint32_t group) {
   const Points& points = from.points[packet];
   const Sky& sky = from.surfaces.sky;
   const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
@@ -319,8 +324,8 @@ void add_sky_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_
 }
 
 // Adds one packet of pairs of the element's points and points of the group's pieces.
-void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
-                    const EmitterGroups& groups, uint32_t group) {
+void add_lamp_packet(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
+                     const EmitterGroups& groups, uint32_t group) {
   const Points& points = from.points[packet];
   const FaceFrameTable& frames = from.surfaces.frames;
   const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
@@ -351,14 +356,14 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
 
 }  // namespace
 
-VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
-                               uint32_t group, uint32_t packet_count, uint32_t unmixed) {
-  return sum_packets(from, packet_count, unmixed, [&](VisibilitySums& sums, uint32_t packet) {
+void add_visibility(VisibilitySums& sums, ElementPoints& from, const GroupLook& look,
+                    const EmitterGroups& groups, uint32_t group, uint32_t first, uint32_t last) {
+  make_packets(from, last);
+  for (uint32_t packet = first; packet < last; ++packet)
     if (groups.is_sky(group))
-      add_sky_visibility(sums, from, packet, look, groups, group);
+      add_sky_packet(sums, from, packet, look, groups, group);
     else
-      add_visibility(sums, from, packet, look, groups, group);
-  });
+      add_lamp_packet(sums, from, packet, look, groups, group);
 }
 
 }  // namespace patchlight

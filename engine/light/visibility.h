@@ -67,9 +67,15 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
 
 struct VisibilitySums {
   std::array<float, 2> all = {0, 0}, seen = {0, 0};  // of the kernel, over two halves of the pairs
-  uint32_t rays = 0, reached = 0;                    // counts
+  uint32_t packets = 0, rays = 0, reached = 0;       // counts
   float share() const { return all[0] + all[1] > 0 ? (seen[0] + seen[1]) / (all[0] + all[1]) : 0; }
   // A sample of its error: half the difference of the halves' shares.
+  bool mixed() const { return reached > 0 && reached < rays; }
+  // The variance of one pair's V. Where all agree, one more might not have.
+  float variance() const {
+    const float visible = (static_cast<float>(reached) + 0.5f) / (static_cast<float>(rays) + 1);
+    return visible * (1 - visible);
+  }
   float noise() const { return all[0] > 0 && all[1] > 0 ? 0.5f * (seen[0] / all[0] - seen[1] / all[1]) : 0; }
 };
 
@@ -90,8 +96,9 @@ struct GroupLook {
 void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3, 4>& corners,
                      const EmitterGroups& groups, uint32_t group, uint64_t pieces);
 
-// The same as above for a group: rays go to its pieces by what they bring.
-VisibilitySums find_visibility(ElementPoints& from, const GroupLook& look, const EmitterGroups& groups,
-                               uint32_t group, uint32_t packet_count, uint32_t unmixed);
+// Adds the packets [first, last) of pairs of an element and a group; rays go to its pieces by what they
+// bring. Makes the packets of points that it lacks.
+void add_visibility(VisibilitySums& sums, ElementPoints& from, const GroupLook& look,
+                    const EmitterGroups& groups, uint32_t group, uint32_t first, uint32_t last);
 
 }  // namespace patchlight

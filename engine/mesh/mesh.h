@@ -12,6 +12,7 @@ struct Mesh {
   VertexTable patch_vertices;
   VertexTable element_vertices;  // once the mesh is frozen
   LeafIndex patch_index;
+  std::vector<float> patch_reach;    // a row a patch, lengths: find_patch_reach()
   std::vector<SplitReason> reasons;  // a row an element
   std::vector<uint32_t> fresh;       // elements that the last round made
   bool frozen = false;               // it is final

@@ -15,11 +15,34 @@ namespace {
 constexpr uint32_t kProbeRayCount = 32;
 // A difference between neighbours, beyond its noise, splits them if it is more than this share of their
 // radiosity ...
-constexpr float kUnevenShare = 0.02f;
-// ... and, times the area of the patch, more than this share of all light that the scene's area sends.
-constexpr float kUnevenPower = 1e-5f;
-constexpr float kUnevenNoise = 3;          // standard errors
-constexpr float kUnevenEdgeMin = 0.0015f;  // of the square root of the scene's area: no smaller parts
+constexpr float kUnevenShare = 0.01f;
+// ... and, times the area of the patch over its squared reach, more than this share of the mean radiosity: in
+// a room alone, a share of all light that it sends.
+constexpr float kUnevenPower = 2.5e-6f;
+constexpr float kUnevenNoise = 3;         // standard errors
+constexpr float kUnevenEdgeMin = 0.001f;  // of the square root of the scene's area: no smaller parts
+
+// As large as what a cell sees is far away in the harmonic mean, which small things before it rule; what
+// leaves the scene is infinitely far. Never more than the whole face has.
+float find_reach_before(const Probe& probe, uint32_t face, const Surfaces& surfaces) {
+  if (surfaces.reach[face] <= surfaces.reach_least || probe.inverse_distance_sum <= 0)
+    return surfaces.reach[face];
+  const float distance = static_cast<float>(probe.ray_count) / probe.inverse_distance_sum;
+  return std::min(find_reach_step(surfaces, kReachPerDistance * distance), surfaces.reach[face]);
+}
+
+// Faces that emit and are black: what they receive shows nowhere. Where all is black, as in scenes of heat,
+// it is what is asked for.
+std::vector<uint8_t> find_lamps(const FaceTable& faces) {
+  std::vector<uint8_t> lamps(faces.size());
+  bool any_reflects = false;
+  for (size_t f = 0; f < faces.size(); ++f) {
+    any_reflects |= largest(faces.reflectance[f]) > 0;
+    lamps[f] = largest(faces.reflectance[f]) == 0 && largest(faces.emission[f]) > 0;
+  }
+  if (!any_reflects) lamps.assign(faces.size(), 0);
+  return lamps;
+}
 
 float find_size(const std::vector<float>& asked, uint32_t face) { return asked.empty() ? 0 : asked[face]; }
 
@@ -33,12 +56,13 @@ Probe probe_cell(const CellRays& rays, const Surfaces& surfaces) {
   for (uint32_t tile = 0; tile < rays.grid.packet_count(); ++tile) {
     make_ray_packet(packet, rays, surfaces.frames, tile);
     find_hits(surfaces.tracer, packet, 0xffff);
+    const uint32_t back = find_backs(packet, faces, 0xffff);
     for (uint32_t k = 0; k < kPacketSize; ++k) {
-      if (packet.face[k] == kNone) continue;
+      const uint32_t face = packet.face[k];
+      if (face == kNone || (largest(faces.reflectance[face]) == 0 && !(back >> k & 1u))) continue;
       ++probe.hit_count;
       probe.inverse_distance_sum += 1 / std::max(packet.ray.far_distance[k], 1e-6f);
     }
-    const uint32_t back = find_backs(packet, faces, 0xffff);
     if (back)
       probe.buried_count +=
           static_cast<uint32_t>(std::popcount(find_buried(surfaces, rays.frame, packet.ray, back)));
@@ -52,6 +76,7 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   const FaceLinkTable& links = surfaces.smooth_links;
   const uint64_t patch_count_max = settings.count_max;
   const auto find_scale = [&](uint32_t face) { return surfaces.reach[face] * settings.size_factor; };
+  const float scale_least = surfaces.reach_least * settings.size_factor;
   // A hair of slack, as elements have it: an edge of exactly twice the size is halved once.
   const auto find_asked = [&](uint32_t face) {
     const float start = find_size(settings.asked.start, face);
@@ -76,15 +101,18 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   PatchTable patches = make_leaves(faces, frames, start_level);
   balance_leaves(patches, frames, links);
   const RayGrid grid = make_ray_grid(kProbeRayCount);
+  const std::vector<uint8_t> lamps = find_lamps(faces);
   std::vector<uint8_t> fresh(patches.size(), 1);
   for (;;) {
-    std::vector<uint8_t> near(patches.size(), 0);  // to what they see, for their size, or at a solid
+    // Of those near to what they see, for their size, or at a solid: their areas in squares of their reach.
+    std::vector<float> weight(patches.size(), 0);
     std::atomic<uint64_t> probed{0};
     for_rows(patches.size(), 64, [&](size_t begin, size_t end) {
       for (size_t row = begin; row < end; ++row) {
         const auto [face, cell, level] = name_cell(patches, row);
-        const float edge = longest_edge(cell_corners(frames, face, cell, level)), scale = find_scale(face);
-        if (!fresh[row] || level >= kLevelMax - 2 || edge < 2 * kPatchEdgeMinAtSolid * scale) continue;
+        const float edge = longest_edge(cell_corners(frames, face, cell, level));
+        if (!fresh[row] || level >= kLevelMax - 2 || lamps[face]) continue;
+        if (edge < 2 * kPatchEdgeMinAtSolid * std::min(find_scale(face), scale_least)) continue;
         if (edge <= find_asked(face)) continue;
         const Probe probe =
             probe_cell(make_cell_rays(faces, {face, cell, level}, kProbeRays, settings.seed, grid), surfaces);
@@ -93,20 +121,18 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
         const bool is_near =
             edge * probe.inverse_distance_sum >
             kPatchEdgePerDistance * settings.size_factor * static_cast<float>(probe.hit_count);
+        const float scale = find_reach_before(probe, face, surfaces) * settings.size_factor;
         const float edge_min = (at_solid ? kPatchEdgeMinAtSolid : kPatchEdgeMin) * scale;
         if (probe.buried_count == probe.ray_count || !(is_near || at_solid) || edge < 2 * edge_min) continue;
-        near[row] = 1;
+        weight[row] = patches.area[row] / (scale * scale);
       }
     });
     ray_count += probed;
-    if (std::count(near.begin(), near.end(), 1) == 0) return patches;
+    if (std::all_of(weight.begin(), weight.end(), [](float w) { return w == 0; })) return patches;
     // Where the budget ends, the largest have the most to gain.
-    std::vector<float> weight(patches.size(), 0);
-    for (size_t row = 0; row < near.size(); ++row)
-      if (near[row]) weight[row] = patches.area[row];
     const std::vector<uint8_t> marks = mark_within_budget(weight, patches, frames, links, patch_count_max);
     bool last = false;
-    for (size_t row = 0; row < near.size(); ++row) last |= near[row] && !marks[row];
+    for (size_t row = 0; row < weight.size(); ++row) last |= weight[row] > 0 && !marks[row];
     std::vector<uint32_t> parent;
     const PatchTable before = std::move(patches);
     patches = split_leaves(before, frames, marks, parent);
@@ -116,23 +142,47 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   }
 }
 
+std::vector<float> find_patch_reach(const PatchTable& patches, const Surfaces& surfaces, uint64_t seed,
+                                    uint64_t& ray_count) {
+  std::vector<float> reach(patches.size());
+  const RayGrid grid = make_ray_grid(kProbeRayCount);
+  std::atomic<uint64_t> probed{0};
+  for_rows(reach.size(), 64, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const auto [face, cell, level] = name_cell(patches, static_cast<uint32_t>(row));
+      reach[row] = surfaces.reach[face];
+      if (reach[row] <= surfaces.reach_least) continue;
+      const Probe probe =
+          probe_cell(make_cell_rays(surfaces.faces, {face, cell, level}, kProbeRays, seed, grid), surfaces);
+      probed += probe.ray_count;
+      reach[row] = find_reach_before(probe, face, surfaces);
+    }
+  });
+  ray_count += probed;
+  return reach;
+}
+
 std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& light, const Surfaces& surfaces,
                                  const PatchSettings& settings) {
   const FaceFrameTable& frames = surfaces.frames;
   const float size_factor = settings.size_factor;
   const float area_factor = size_factor * size_factor;
   const float share = std::max(kUnevenShare * area_factor, settings.threshold);
-  double power = 0;
-  for (size_t row = 0; row < patches.size(); ++row) power += double{patches.area[row]} * light.total[row];
-  const auto power_least = static_cast<float>(kUnevenPower * power) * area_factor * area_factor;
+  double power = 0, area = 0;
+  for (size_t row = 0; row < patches.size(); ++row) {
+    area += double{patches.area[row]};
+    power += double{patches.area[row]} * light.total[row];
+  }
+  const auto power_least = static_cast<float>(kUnevenPower * power / area) * area_factor * area_factor;
+  const std::vector<uint8_t> lamps = find_lamps(surfaces.faces);
   std::vector<float> weight(patches.size(), 0);
   for_rows(patches.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
       const auto row = static_cast<uint32_t>(at);
       const uint32_t face = patches.face[row], level = patches.level[row];
-      if (patches.exposed[row] == 0 || level >= kLevelMax - 2) continue;
+      if (patches.exposed[row] == 0 || level >= kLevelMax - 2 || lamps[face]) continue;
       const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
-      if (size < 2 * kUnevenEdgeMin * surfaces.reach[face] * size_factor) continue;
+      if (size < 2 * kUnevenEdgeMin * light.reach[row] * size_factor) continue;
       if (size < find_size(settings.asked.least, face)) continue;
       for (uint32_t edge = 0; edge < edge_count(frames, face); ++edge)
         for (const uint32_t other : find_neighbours(patches, frames, surfaces.links, row, edge)) {
@@ -140,7 +190,8 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
           const float difference = std::abs(light.indirect[row] - light.indirect[other]) -
                                    kUnevenNoise * std::hypot(light.error[row], light.error[other]);
           if (difference > share * std::max(light.total[row], light.total[other]))
-            weight[row] = std::max(weight[row], difference * patches.area[row]);
+            weight[row] =
+                std::max(weight[row], difference * patches.area[row] / (light.reach[row] * light.reach[row]));
         }
     }
   });

@@ -16,13 +16,14 @@ struct RefineInput {
 
 struct RefineLimits {
   float threshold;                        // share of the larger of two radiosities
-  std::span<const float> patch_size_min;  // a row a face, lengths
+  std::span<const float> patch_size_min;  // a row an element, lengths
   uint64_t patch_count_max;
 };
 
 // Marks both of two neighbours whose radiosities differ by more than `threshold` of the larger one (largest
 // channel), by more than 1 % of the mean, and by more than their noise explains; not those whose longest edge
-// is below patch_size_min. Where the budget does not suffice, the largest differences (times area) go first.
+// is below patch_size_min. Where the budget does not suffice, the largest differences (times area, in squares
+// of patch_size_min: small rooms in wide scenes count, too) go first.
 // Neighbours are those within polygons: the two sides of a facet's edge differ, and no splitting changes
 // that. Keeps the tree balanced across smooth links. Returns a row an element; all 0 if nothing is to be
 // split.

@@ -7,11 +7,19 @@
 #include "engine/mesh/face_links.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 namespace patchlight {
+float find_reach_step(const Surfaces& surfaces, float wanted) {
+  wanted = std::max(wanted, surfaces.reach_least);
+  float reach = surfaces.scale;
+  while (reach > wanted && reach > 1e-6f * surfaces.scale) reach /= 2;
+  return reach;
+}
+
 namespace {
 
 constexpr float kNormalSlack = 1e-3f;  // of its length
@@ -40,31 +48,37 @@ bool is_between(Rgb value, float low, float high) {
 }
 
 // What a face sees is as large as the scene, or smaller by powers of two: a room on a wide ground is meshed
-// as if it stood alone. In a room alone the mean distance is about a quarter of the scale. A narrow gap does
-// not count: none is smaller than what half of the area sees, of all that looks into the scene and not out of
+// as if it stood alone. In a room alone the median distance is about a quarter of the scale. A narrow gap
+// does not count: none is smaller than what half of the area sees, of all that shows light and looks into the
+// scene and not out of it. A ground or a dome that is larger than all the rest says nothing of what stands on
 // it.
-std::vector<float> find_reach(const Surfaces& surfaces) {
+void find_reach(Surfaces& surfaces) {
   constexpr uint32_t kRays = 32;
-  constexpr float kReachPerDistance = 8, kInside = 0.75f;
-  std::vector<float> reach(surfaces.faces.size()), inside(reach.size());
+  constexpr float kInside = 0.75f;
+  std::vector<float>& reach = surfaces.reach;
+  reach.resize(surfaces.faces.size());
+  std::vector<float> inside(reach.size());
   const RayGrid grid = make_ray_grid(kRays);
   for_rows(reach.size(), 64, [&](size_t begin, size_t end) {
     HitPacket packet;
     for (auto face = static_cast<uint32_t>(begin); face < end; ++face) {
       const CellRays rays = make_cell_rays(surfaces.faces, {face, 0, 0}, kReachRays, 1, grid);
-      float sum = 0, hits = 0;
+      std::array<float, kRays> seen;  // distances
+      float hits = 0;
       for (uint32_t k = 0; k < grid.packet_count(); ++k) {
         make_ray_packet(packet, rays, surfaces.frames, k);
         find_hits(surfaces.tracer, packet, 0xffff);
         for (uint32_t ray = 0; ray < kPacketSize; ++ray) {
           const bool hit = packet.face[ray] != kNone;
-          sum += hit ? std::min(packet.ray.far_distance[ray], surfaces.scale) : surfaces.scale;
-          hits += hit ? 1.0f : 0.0f;
+          seen[k * kPacketSize + ray] =
+              hit ? std::min(packet.ray.far_distance[ray], surfaces.scale) : surfaces.scale;
+          hits += hit && largest(surfaces.faces.reflectance[packet.face[ray]]) > 0 ? 1.0f : 0.0f;
         }
       }
-      const auto count = static_cast<float>(grid.ray_count());
-      reach[face] = kReachPerDistance * sum / count;
-      inside[face] = hits / count;
+      // The median: a sky far behind an open front makes a room no larger.
+      std::nth_element(seen.begin(), seen.begin() + kRays / 2, seen.end());
+      reach[face] = kReachPerDistance * seen[kRays / 2];
+      inside[face] = hits / kRays;
     }
   });
   std::vector<std::pair<float, double>> seen;  // distance, area
@@ -80,12 +94,8 @@ std::vector<float> find_reach(const Surfaces& surfaces) {
     typical = distance;
     if ((before += own) >= area / 2) break;
   }
-  for (float& own : reach) {
-    const float wanted = std::max(own, typical);
-    own = surfaces.scale;
-    while (own > wanted && own > 1e-6f * surfaces.scale) own /= 2;
-  }
-  return reach;
+  surfaces.reach_least = typical;
+  for (float& own : reach) own = find_reach_step(surfaces, own);
 }
 
 }  // namespace
@@ -128,8 +138,9 @@ std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces, Sky sky) {
                                                             std::move(tracer),
                                                             scale,
                                                             {},
+                                                            0,
                                                             std::move(sky)});
-  surfaces->reach = find_reach(*surfaces);
+  find_reach(*surfaces);
   return surfaces;
 }
 

@@ -10,6 +10,9 @@
 
 namespace patchlight {
 
+// What lies before a place counts as so many times as large as it is far away in the middle.
+inline constexpr float kReachPerDistance = 8;
+
 struct Surfaces {
   FaceTable faces;
   FaceFrameTable frames;
@@ -18,8 +21,12 @@ struct Surfaces {
   Tracer tracer;
   float scale = 0;           // lengths: find_scene_scale()
   std::vector<float> reach;  // a row a face, lengths: the same for what lies before it, at most `scale`
+  float reach_least = 0;     // lengths: no narrow gap has less
   Sky sky;
 };
+
+// The scale, or that over a power of two, down to what lies within `wanted` lengths; not below reach_least.
+float find_reach_step(const Surfaces& surfaces, float wanted);
 
 // Throws std::invalid_argument, with the column and the row, where faces are not what tables.h says.
 void check_faces(const FaceTable& faces);

@@ -34,9 +34,11 @@ std::vector<uint8_t> find_reaching(const Solution& s) {
   RowScratch scratch;
   for (uint32_t r = 0; r < transport.receivers.size(); ++r) {
     const uint32_t patch = transport.receivers.patch[transport.receivers.first[r]];
-    if (transport.aiming[faces.polygon[s.mesh.patches.face[patch]]]) continue;
+    const float by_rows = transport.emission_by_rows[faces.polygon[s.mesh.patches.face[patch]]];
+    if (by_rows == 0) continue;
     for (const uint32_t hit : find_row(scratch, rows, r).patch)
-      if (hit < s.mesh.patches.size()) add(s.mesh.patches.face[hit]);
+      if (hit < s.mesh.patches.size() && luminance(faces.emission[s.mesh.patches.face[hit]]) <= by_rows)
+        add(s.mesh.patches.face[hit]);
   }
   return reaching;
 }

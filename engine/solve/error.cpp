@@ -9,6 +9,9 @@
 namespace patchlight {
 namespace {
 
+// A pass adds no more than this of what the one before added, or light would never end.
+constexpr double kRatioMax = 0.99;
+
 // How far each leaf's value is from the mean of the surface over it: where light bends more than the patches
 // follow, or has an edge, that is as much as the surface is off inside.
 std::vector<float> find_misfit(const LeafSurface& surface, std::span<const Rgb> leaf_values,
@@ -22,50 +25,95 @@ std::vector<float> find_misfit(const LeafSurface& surface, std::span<const Rgb> 
   return misfit;
 }
 
+// What further passes would still add, as a share of what the last one added: passes fall off alike.
+double find_tail(std::span<const PassReport> passes) {
+  if (passes.size() < 2) return 0;
+  const double before = sum_channels(passes[passes.size() - 2].added_power),
+               last = sum_channels(passes.back().added_power);
+  if (last <= 0 || before <= 0) return 0;
+  const double ratio = std::min(last / before, kRatioMax);
+  return ratio / (1 - ratio);
+}
+
+// Rows of elements, W/m2 of radiosity: errors, and the light that they are shares of.
+struct ErrorColumns {
+  std::vector<Rgb> noise;  // of direct light; of rows; mesh
+  std::vector<Rgb> light;  // what is sent on; what further passes would add of it; unused
+};
+ErrorColumns find_columns(const Solution& s) {
+  const FaceTable& faces = s.surfaces->faces;
+  const PatchTable& elements = s.mesh.elements;
+  const LeafSurface fine{s.mesh.element_vertices, elements, s.surfaces->frames};
+  const std::vector<float> sharp_misfit = find_misfit(fine, s.light.sharp, kDirectSurface);
+  const std::vector<float> smooth_misfit = find_misfit(patch_surface(s), s.light.smooth, kIndirectSurface);
+  const double tail = find_tail(s.log.passes);
+  ErrorColumns columns{std::vector<Rgb>(elements.size()), std::vector<Rgb>(elements.size())};
+  for_rows(elements.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t row = begin; row < end; ++row) {
+      const uint32_t face = elements.face[row], p = s.mesh.element_patch[row];
+      const float reflectance = mean_channel(faces.reflectance[face]);
+      const float noise = s.light.smooth_error[p], misfit = smooth_misfit[p];
+      // Noise does not fit either: it is told already.
+      const float mesh = sharp_misfit[row] + std::sqrt(std::max(misfit * misfit - noise * noise, 0.0f));
+      columns.noise[row] = reflectance * Rgb(static_cast<float>(kMeanOfError) * s.light.direct_error[row],
+                                             static_cast<float>(kMeanOfError) * noise, mesh);
+      columns.light[row] = {mean_channel(elements.radiosity[row] - faces.emission[face]),
+                            static_cast<float>(tail * mean_channel(elements.unshot[row])), 0};
+    }
+  });
+  return columns;
+}
+
+// Sums of both columns, weighed, to shares.
+struct ErrorSums {
+  DRgb noise{0}, light{0};
+  void add(double weight, Rgb noise_here, Rgb light_here) {
+    noise += weight * DRgb(noise_here), light += weight * DRgb(light_here);
+  }
+  ErrorParts share_of(double sent) const {
+    if (sent <= 0) return {};
+    return {noise.r / sent, noise.g / sent, noise.b / sent, light.g / sent};
+  }
+};
+
 }  // namespace
 
 double ErrorParts::estimate() const {
-  return std::sqrt(noise_direct * noise_direct + noise_rows * noise_rows + mesh * mesh);
+  return std::sqrt(noise_direct * noise_direct + noise_rows * noise_rows + mesh * mesh + passes * passes);
 }
 
-ErrorTable find_error(const Solution& s) {
+ErrorTable find_error(const Solution& s, std::span<const FilmTable> films) {
   const WorkersScope scope(s.workers);
   const FaceTable& faces = s.surfaces->faces;
-  ErrorTable table;
+  const PatchTable& elements = s.mesh.elements;
   const size_t polygon_count = faces.size() ? size_t{faces.polygon.back()} + 1 : 0;
-  table.polygon.resize(polygon_count);
-  table.polygon_area.resize(polygon_count);
+  ErrorTable table{{}, {}, std::vector<ErrorParts>(polygon_count), std::vector<double>(polygon_count)};
   if (s.log.passes.empty() || s.light.smooth_error.empty()) return table;
 
-  double sent = 0;  // by all surfaces
-  const LeafSurface elements{s.mesh.element_vertices, s.mesh.elements, s.surfaces->frames};
-  const std::vector<float> sharp_misfit = find_misfit(elements, s.light.sharp, kDirectSurface);
-  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
-    const uint32_t face = s.mesh.elements.face[row], polygon = faces.polygon[face];
-    const double area = double{s.mesh.elements.area[row]} * s.mesh.elements.exposed[row];
-    const double shown = area * mean_channel(faces.reflectance[face]);
-    sent += area * mean_channel(s.mesh.elements.radiosity[row] - faces.emission[face]);
+  const ErrorColumns columns = find_columns(s);
+  std::vector<ErrorSums> polygons(polygon_count);
+  ErrorSums all;
+  for (size_t row = 0; row < elements.size(); ++row) {
+    const uint32_t polygon = faces.polygon[elements.face[row]];
+    const double area = double{elements.area[row]} * elements.exposed[row];
     table.polygon_area[polygon] += area;
-    table.polygon[polygon].noise_direct += kMeanOfError * shown * s.light.direct_error[row];
-    table.polygon[polygon].mesh += shown * sharp_misfit[row];
+    polygons[polygon].add(area, columns.noise[row], columns.light[row]);
   }
-  const std::vector<float> smooth_misfit = find_misfit(patch_surface(s), s.light.smooth, kIndirectSurface);
-  for (size_t p = 0; p < s.mesh.patches.size(); ++p) {
-    const uint32_t face = s.mesh.patches.face[p], polygon = faces.polygon[face];
-    const double shown =
-        double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] * mean_channel(faces.reflectance[face]);
-    const double noise = s.light.smooth_error[p], misfit = smooth_misfit[p];
-    table.polygon[polygon].noise_rows += kMeanOfError * shown * noise;
-    // Noise does not fit either: it is told above.
-    table.polygon[polygon].mesh += shown * std::sqrt(std::max(misfit * misfit - noise * noise, 0.0));
+  for (const ErrorSums& sums : polygons) all.noise += sums.noise, all.light += sums.light;
+  for (size_t polygon = 0; polygon < polygon_count; ++polygon)
+    table.polygon[polygon] = polygons[polygon].share_of(all.light.r);
+  table.shown = table.surfaces = all.share_of(all.light.r);
+
+  const LeafSurface fine{s.mesh.element_vertices, elements, s.surfaces->frames};
+  const std::vector<Rgb> noise = reconstruct(fine, columns.noise, {0, 0}),
+                         light = reconstruct(fine, columns.light, {0, 0});
+  ErrorSums pictures;
+  for (const FilmTable& film : films) {
+    const std::vector<Rgb> noise_seen = expose(film, noise), light_seen = expose(film, light);
+    for (size_t pixel = 0; pixel < noise_seen.size(); ++pixel)
+      pictures.add(1.0 / static_cast<double>(noise_seen.size()), noise_seen[pixel], light_seen[pixel]);
   }
-  if (sent <= 0) return {{}, std::vector<ErrorParts>(polygon_count), table.polygon_area};
-  for (ErrorParts& parts : table.polygon) {
-    parts.noise_direct /= sent, parts.noise_rows /= sent, parts.mesh /= sent;
-    table.whole.noise_direct += parts.noise_direct;
-    table.whole.noise_rows += parts.noise_rows;
-    table.whole.mesh += parts.mesh;
-  }
+  if (pictures.light.r > 0) table.shown = pictures.share_of(pictures.light.r);
   return table;
 }
 

@@ -21,9 +21,9 @@ constexpr double kKeptRay = 0.001;   // of a row that is kept, in each pass
 constexpr double kElement = 1.5;     // split, compared and joined
 constexpr double kAimedShare = 0.6;  // of what the rows cost: pass 2
 
-constexpr double kSkyRaysOfRow = 2000, kSkyRaysOfElement = 400;  // at cells of the sky
+constexpr double kSkyRaysOfRow = 800, kSkyRaysOfElement = 400;  // at cells of the sky
 
-constexpr double kPatchesOfRooms = 12'000;  // beside one a face
+constexpr double kPatchesOfRooms = 24'000;  // beside one a face
 // Of the square root of the scene's area: smaller faces of meshes share rows.
 constexpr double kSharedSpan = 0.01;
 
@@ -75,7 +75,7 @@ double forecast_elements(double start, double patches, const Counts& counts, con
 double forecast_lamp_rays(double elements, const Counts& counts, double rays) {
   if (!counts.are_aimed) return 0;
   const double lamps = std::min(counts.lamps, 64.0);
-  return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 256, 0.4);
+  return elements * 110 * std::pow(lamps, 0.37) * std::pow(rays / 144, 0.4);
 }
 
 // The elements that a budget leads to, for solvers whose cost grows with all pairs of them.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kEmissionRayCount = 1u << 16;  // for all lamps together
 // For the sky and for the sun, from all patches together, and the least and most from one.
-constexpr double kSkyRayCount = 1 << 20, kSunRayCount = 1 << 19;
+constexpr double kSkyRayCount = 1 << 22, kSunRayCount = 1 << 20;
 constexpr double kSkyRaysLeast = 16, kSkyRaysMost = 16384, kSunRaysLeast = 64;
 
 struct Shares {

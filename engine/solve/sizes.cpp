@@ -46,11 +46,11 @@ uint32_t find_start_level(const FaceTable& faces, const FaceFrameTable& frames, 
 }
 
 // How many patches may carry light between surfaces: one a face, and half of what that leaves of the budget,
-// but no more than rooms need (4,000 to 15,000; a room of a million elements is no harder).
+// but no more than rooms need (8,000 to 30,000; a room of a million elements is no harder).
 uint64_t count_transport_patches(const FaceTable& faces, const SolverSettings& settings) {
   // As sizes go, so goes the number of patches.
   const double factor = double{find_size_factor(settings)};
-  const auto more = static_cast<uint64_t>(24000 / (factor * factor));
+  const auto more = static_cast<uint64_t>(50000 / (factor * factor));
   const uint64_t face_count = faces.size(), budget = std::max<uint64_t>(settings.patch_count_max, face_count);
   return face_count + std::min((budget - face_count) / 2, more);
 }

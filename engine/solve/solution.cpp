@@ -45,7 +45,7 @@ Rows get_rows(const Solution& s) {
 
 DirectRays final_rays(const SolverSettings& settings) {
   const uint32_t rays = count_row_rays(settings);
-  return {std::max(rays / 8, 16u), std::max(rays / 2, 16u), std::max(rays, 16u)};
+  return {std::max(rays * 2 / 9, 16u), std::max(rays * 8 / 9, 16u), true};
 }
 
 std::vector<Rgb> find_sky_light(Solution& s) {
@@ -139,11 +139,11 @@ uint64_t count_bytes(const Solution& s) {
   if (s.surfaces) add(s.surfaces->frames, s.surfaces->links, s.surfaces->smooth_links);
   add(s.mesh.patches, s.mesh.elements, s.mesh.patch_vertices, s.mesh.element_vertices, s.transport.sights,
       s.transport.receivers, s.transport.hits);
-  add_columns(s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh, s.transport.aiming,
-              s.light.sharp, s.light.smooth, s.light.smooth_added, s.light.smooth_error,
-              s.transport.smoothing.leaf, s.transport.smoothing.first, s.transport.smoothing.neighbour,
-              s.transport.smoothing.weight, s.light.direct, s.light.direct_error, s.light.direct_noise,
-              s.light.coarse, s.light.coarse_error);
+  add_columns(s.mesh.patch_reach, s.mesh.element_first, s.mesh.element_patch, s.mesh.reasons, s.mesh.fresh,
+              s.transport.emission_by_rows, s.light.sharp, s.light.smooth, s.light.smooth_added,
+              s.light.smooth_error, s.transport.smoothing.leaf, s.transport.smoothing.first,
+              s.transport.smoothing.neighbour, s.transport.smoothing.weight, s.light.direct,
+              s.light.direct_error, s.light.direct_noise, s.light.coarse, s.light.coarse_error);
   return bytes;
 }
 

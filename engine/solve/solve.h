@@ -55,7 +55,7 @@ struct PowerLedger {
 // What light travels along.
 struct Transport {
   EmitterGroups groups;
-  std::vector<uint8_t> aiming;  // a row a polygon: 1: it aims at the emitters, 0: its rows see them
+  std::vector<float> emission_by_rows;  // a row a polygon: what its rows see of the emitters (sights.h)
   SightTable sights;            // a row a receiver
   ReceiverTable receivers;      // of the patches
   HitTable hits;                // a row of rays a receiver

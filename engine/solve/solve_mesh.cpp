@@ -57,10 +57,9 @@ void find_element_patches(Solution& s) {
 
 // Rays a lamp on the starting mesh, whose elements may be large beside a spot of light, while the mesh is
 // refined, and once it is final.
-constexpr DirectRays kStartRays{64, 64, 64};
+constexpr DirectRays kStartRays{64, 64};
 DirectRays round_rays(const SolverSettings& settings) {
-  const uint32_t mixed = std::max(count_row_rays(settings) / 4, 16u);
-  return {16, mixed, mixed};
+  return {16, std::max(count_row_rays(settings) * 4 / 9, 16u)};
 }
 
 // Through windows the sky is seen in pieces as small as they are: fine cells, where most rows stay inside.
@@ -110,7 +109,7 @@ void find_coarse(Solution& s, const Rows& rows) {
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
   std::vector<Rgb> emitted(count), sent(count), next(count);
-  gather_emission(emitted, {}, rows, s.transport.aiming);
+  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
   s.light.coarse = emitted;
   for (size_t p = 0; p < count; ++p)
     sent[p] = s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + emitted[p]);
@@ -149,14 +148,18 @@ void find_mean_radiosity(Solution& s) {
   s.light.mean_radiosity = area > 0 ? static_cast<float>(sum / area) : 0;
 }
 
-// A row a face, lengths: what the author says, or an automatic size as the face's surroundings ask for it.
+// A row an element, lengths: what the author says, or an automatic size as the surroundings ask for it.
 std::vector<float> find_least_sizes(const Solution& s) {
   const PatchSizes sizes = find_patch_sizes(s.surfaces->faces, s.surfaces->frames, s.settings);
-  std::vector<float> least = sizes.asked.least;
-  for (size_t face = 0; face < least.size(); ++face) {
-    if (least[face] > 0) continue;
-    least[face] = sizes.least;
-    if (s.settings.patch_size <= 0) least[face] *= s.surfaces->reach[face] / s.surfaces->scale;
+  std::vector<float> least(s.mesh.elements.size());
+  for (size_t row = 0; row < least.size(); ++row) {
+    if (const float asked = sizes.asked.least[s.mesh.elements.face[row]]; asked > 0) {
+      least[row] = asked;
+      continue;
+    }
+    least[row] = sizes.least;
+    if (s.settings.patch_size <= 0)
+      least[row] *= s.mesh.patch_reach[s.mesh.element_patch[row]] / s.surfaces->scale;
   }
   return least;
 }
@@ -174,8 +177,7 @@ std::vector<float> find_errors(const Solution& s, std::span<const float> patch_s
           s.light.coarse_error[patch] * cell_size(s.mesh.elements.level[row] - s.mesh.patches.level[patch]);
       const float edge = longest_edge(cell_corners(s.surfaces->frames, s.mesh.elements.face[row],
                                                    s.mesh.elements.cell[row], s.mesh.elements.level[row]));
-      const float direct =
-          edge > kLargeElement * patch_size_min[s.mesh.elements.face[row]] ? 0 : s.light.direct_error[row];
+      const float direct = edge > kLargeElement * patch_size_min[row] ? 0 : s.light.direct_error[row];
       error[row] =
           largest(s.surfaces->faces.reflectance[s.mesh.elements.face[row]]) * std::hypot(direct, slope);
     }
@@ -218,8 +220,8 @@ bool split_patches(Solution& s, const AskedSizes& sizes) {
     total[p] = largest(reflectance * (s.light.coarse[p] + direct[p]));
     error[p] = largest(reflectance) * s.light.coarse_error[p];
   }
-  const std::vector<uint8_t> marks =
-      mark_uneven(s.mesh.patches, {indirect, total, error}, *s.surfaces, make_patch_settings(s, sizes));
+  const std::vector<uint8_t> marks = mark_uneven(s.mesh.patches, {indirect, total, error, s.mesh.patch_reach},
+                                                 *s.surfaces, make_patch_settings(s, sizes));
   if (std::count(marks.begin(), marks.end(), 1) == 0) {
     s.log.split_seconds += watch.lap();
     return false;
@@ -238,6 +240,8 @@ bool split_patches(Solution& s, const AskedSizes& sizes) {
   for (uint32_t row = 0; row < row_before.size(); ++row)
     if (row_before[row] == kNone) fresh_rows.push_back(row);
   s.mesh.patch_index = make_leaf_index(s.mesh.patches);
+  s.mesh.patch_reach =
+      find_patch_reach(s.mesh.patches, *s.surfaces, s.settings.seed, s.log.transport_ray_count);
   s.log.split_seconds += watch.lap();
   s.log.transport_ray_count +=
       cast_rows(s.transport.hits, s.mesh.patches.exposed, fresh_rows, get_rows(s).by, s.settings.keep_rows);
@@ -260,7 +264,7 @@ bool split_patches(Solution& s, const AskedSizes& sizes) {
   s.log.trace_seconds += watch.lap();
   const Rows rows = get_rows(s);
   std::vector<Rgb> emitted(s.mesh.patches.size());
-  gather_emission(emitted, {}, rows, s.transport.aiming);
+  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
   step_coarse(s, rows, find_patch_means(s, s.light.direct), emitted);
   s.log.solve_seconds += watch.lap();
   return true;
@@ -322,6 +326,7 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   uint64_t& ray_count = s.log.transport_ray_count;
   const AskedSizes asked = find_asked_sizes(s.surfaces->faces, settings);
   s.mesh.patches = make_patches(*s.surfaces, make_patch_settings(s, asked), ray_count);
+  s.mesh.patch_reach = find_patch_reach(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
   s.transport.receivers = make_receivers(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
   s.log.split_seconds += watch.lap();
   s.mesh.patch_index = make_leaf_index(s.mesh.patches);
@@ -335,8 +340,10 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   s.log.split_seconds += watch.lap();
   s.transport.groups =
       make_emitter_groups(s.surfaces->faces, s.surfaces->frames, s.surfaces->sky, pick_sky_detail(s));
-  s.transport.aiming = find_aiming(*s.surfaces, s.transport.groups, s.mesh.patches, s.transport.receivers);
-  s.transport.sights = find_sights(get_rows(s).by, s.transport.groups, s.transport.aiming, ray_count);
+  s.transport.emission_by_rows =
+      find_emission_by_rows(*s.surfaces, s.transport.groups, s.mesh.patches, s.transport.receivers);
+  s.transport.sights =
+      find_sights(get_rows(s).by, s.transport.groups, s.transport.emission_by_rows, ray_count);
   const size_t count = s.mesh.elements.size();
   s.light.direct.resize(count);
   s.light.direct_error.resize(count);

@@ -19,7 +19,9 @@ constexpr uint32_t kSourceCount = 400;
 // What patches receive is smoothed by 32 steps at most (smoothing.h).
 constexpr uint32_t kBounceStrengths = 7;
 // Of the error asked for, what noise of bounced light may take.
-constexpr double kRowsOfError = 0.5, kLaterOfError = 0.1;
+constexpr double kRowsOfError = 0.5, kLaterOfError = 0.15;
+// Where there is less than this share of the scene's mean light, errors are shares of that.
+constexpr double kDark = 0.1;
 // Where more rays are asked for, so many times as many as a row has; so often at most; over all receivers not
 // more than so many times the rows' rays.
 constexpr uint32_t kMoreRays = 4, kMoreRounds = 3, kMoreRaysMax = 8;
@@ -34,24 +36,40 @@ uint64_t count_factors(const Solution& s) {
   return count;
 }
 
-// Of all light that surfaces send on, so many W/m2 times lengths squared: what errors are shares of.
-double find_sent_power(const Solution& s) {
+// What an error of a patch counts for: a picture may be of any corner, and is exposed for what it shows, so
+// that errors are shares of the light that is around. weight: a row a patch, 1 / (W/m2) times lengths
+// squared; of an error of the share x everywhere the weighted sum is x times `all`.
+struct ErrorWeights {
+  std::vector<double> weight;
+  double all = 0;
+};
+ErrorWeights find_error_weights(const Solution& s) {
+  const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
-  double power = 0;
-  for (size_t p = 0; p < s.mesh.patches.size(); ++p)
-    power +=
-        double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] *
-        luminance(s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + s.light.coarse[p]));
-  return power;
+  std::vector<double> shown(count), light(count);  // lengths squared; W/m2
+  double shown_sum = 0, light_sum = 0;
+  for (size_t p = 0; p < count; ++p) {
+    shown[p] = double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] *
+               luminance(s.surfaces->faces.reflectance[s.mesh.patches.face[p]]);
+    light[p] = luminance(direct[p] + s.light.coarse[p]);
+    shown_sum += shown[p], light_sum += shown[p] * light[p];
+  }
+  ErrorWeights weights{std::vector<double>(count, 0), 0};
+  if (light_sum == 0) return weights;
+  const double dark = kDark * light_sum / shown_sum;
+  for (size_t p = 0; p < count; ++p) {
+    weights.weight[p] = shown[p] / (light[p] + dark);
+    weights.all += weights.weight[p] * light[p];
+  }
+  return weights;
 }
 
-// What the errors of a receiver's patches are in that unit.
-std::vector<double> find_error_power(const Solution& s, std::span<const float> error) {
+// The errors of a receiver's patches, weighed.
+std::vector<double> find_error_power(const Solution& s, const ErrorWeights& weights,
+                                     std::span<const float> error) {
   std::vector<double> power(s.transport.receivers.size(), 0);
   for (size_t p = 0; p < error.size(); ++p)
-    power[s.transport.receivers.receiver_of[p]] +=
-        kMeanOfError * double{s.mesh.patches.area[p]} * s.mesh.patches.exposed[p] * error[p] *
-        luminance(s.surfaces->faces.reflectance[s.mesh.patches.face[p]]);
+    power[s.transport.receivers.receiver_of[p]] += kMeanOfError * weights.weight[p] * error[p];
   return power;
 }
 
@@ -99,12 +117,14 @@ SmoothBounce gather_aimed(const Solution& s, uint64_t& ray_count) {
   ray_count += gather_elements(received, noise, rows, elements, sent, sources);
   SmoothBounce bounce = smooth_bounce(s, received, noise);
   const size_t count = s.transport.receivers.size(), patch_count = received.size();
-  const double target = kRowsOfError * s.settings.error * find_sent_power(s);
+  const ErrorWeights weights = find_error_weights(s);
+  const double target = kRowsOfError * s.settings.error * weights.all;
   size_t rows_left = kMoreRaysMax * count / kMoreRays;
   std::vector<float> rays_of(count, 1);  // so many times those of a row
   for (uint64_t round = 1; round <= kMoreRounds; ++round) {
     const double gain = 1 - std::sqrt(1.0 / (1 + kMoreRays));
-    const std::vector<uint8_t> asked = pick_noisy(find_error_power(s, bounce.error), target, gain, rows_left);
+    const std::vector<uint8_t> asked =
+        pick_noisy(find_error_power(s, weights, bounce.error), target, gain, rows_left);
     const auto asked_count = static_cast<size_t>(std::count(asked.begin(), asked.end(), 1));
     if (asked_count == 0) break;
     rows_left -= asked_count;
@@ -136,7 +156,7 @@ SmoothBounce gather_aimed(const Solution& s, uint64_t& ray_count) {
 // The first pass: emission that rows meet.
 SmoothBounce gather_first(const Solution& s) {
   std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
-  gather_emission(received, noise, get_rows(s), s.transport.aiming);
+  gather_emission(received, noise, get_rows(s), s.transport.emission_by_rows);
   return smooth_bounce(s, received, noise);
 }
 
@@ -146,9 +166,10 @@ SmoothBounce gather_later(const Solution& s, uint64_t& ray_count) {
   std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
   gather_patches(received, noise, get_rows(s), s.mesh.patches.unshot);
   SmoothBounce bounce = smooth_bounce(s, received, noise);
+  const ErrorWeights weights = find_error_weights(s);
   double error = 0;
-  for (const double power : find_error_power(s, bounce.error)) error += power;
-  if (error <= kLaterOfError * s.settings.error * find_sent_power(s)) return bounce;
+  for (const double power : find_error_power(s, weights, bounce.error)) error += power;
+  if (error <= kLaterOfError * s.settings.error * weights.all) return bounce;
   return gather_aimed(s, ray_count);
 }
 

@@ -361,11 +361,11 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 }  // namespace
 
 void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
-                     std::span<const uint8_t> aiming) {
+                     std::span<const float> emission_by_rows) {
   const FaceTable& faces = rows.by.surfaces.faces;
-  // Few patches emit: a byte a patch stays in the cache.
-  std::vector<uint8_t> emits(rows.by.patches.size());
-  for (size_t p = 0; p < emits.size(); ++p) emits[p] = largest(faces.emission[rows.by.patches.face[p]]) > 0;
+  // Few patches emit: a number a patch stays in the cache.
+  std::vector<float> emits(rows.by.patches.size());
+  for (size_t p = 0; p < emits.size(); ++p) emits[p] = luminance(faces.emission[rows.by.patches.face[p]]);
   for_rows(rows.by.receivers.size(), 64, [&](size_t begin, size_t end) {
     RowScratch scratch;
     for (uint32_t row = static_cast<uint32_t>(begin); row < end; ++row) {
@@ -373,10 +373,10 @@ void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows
       // Polygons that share a receiver aim alike.
       const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
       const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
-      if (!aiming[polygon]) {
+      if (const float by_rows = emission_by_rows[polygon]; by_rows > 0) {
         const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
         for (size_t k = 0; k < hit.size(); ++k)
-          if (hit[k] < kHitBuried && emits[hit[k]])
+          if (hit[k] < kHitBuried && emits[hit[k]] > 0 && emits[hit[k]] <= by_rows)
             sum.half[find_half(k)] += faces.emission[rows.by.patches.face[hit[k]]];
       }
       const uint32_t valid = rows.hits.valid_count(row);

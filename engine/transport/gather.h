@@ -8,12 +8,12 @@
 namespace patchlight {
 
 // Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
-// meets and that is not aimed at. irradiance: a row a patch, overwritten.
+// meets and that is not aimed at (find_emission_by_rows in sights.h). irradiance: a row a patch, overwritten.
 //
 // noise, here and below: half the difference of what two independent halves of the rays give, a sample of the
 // error; a row a patch, overwritten; empty: not wanted.
 void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
-                     std::span<const uint8_t> aiming);
+                     std::span<const float> emission_by_rows);
 
 // Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send.
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,

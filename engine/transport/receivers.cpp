@@ -14,7 +14,7 @@ namespace {
 // A patch may share a receiver if the square root of its face's area is below this share of what the receiver
 // may span, which is twice what a patch of a large face may: the light on small things is seen less closely.
 constexpr float kSmallFace = 0.5f;
-constexpr float kSpanPerDistance = 0.4f, kSpanMin = 2 * kPatchEdgeMin, kSpanMax = kPatchEdgeMax;
+constexpr float kSpanPerDistance = 0.4f, kSpanMin = 0.01f, kSpanMax = 0.06f;
 // Sixteen rays find the room in front of a patch to a factor of two or so: steps of eight.
 constexpr float kReachStep = 8;
 constexpr uint32_t kReachSteps = 16;

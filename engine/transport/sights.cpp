@@ -18,10 +18,12 @@ namespace {
 // Above this mean share of its sky a polygon leaves emitters to its rows: closed rooms in which all emits
 // come out exact then.
 constexpr double kEmitterSkyMax = 0.8;
+// Bright ones that fill no more of it are aimed at all the same: rows would meet them by chance.
+constexpr double kSpotSkyMax = 0.1;
 // Rays from a receiver at a group: at first, and in all where some arrive and some do not.
 constexpr uint32_t kFirstPackets = 4, kMixedPackets = 16;
 // Rays at a group of the sky by which is told whether anything of it, or of one beside it, may be seen.
-constexpr uint32_t kGlancePackets = 1;
+constexpr uint32_t kGlancePackets = 2;
 constexpr size_t kFewGroups = 8;
 // A group that gives less than this share of a receiver's light, blockers aside, gets the first rays only.
 constexpr float kWeakShare = 0.03f;
@@ -44,8 +46,34 @@ Aim aim_at_lamp(const Emitter& emitter, const FaceFrameTable& frames, Vec3 start
   return {way, dot(way, emitter.normal) < 0, 1};
 }
 
-// One packet of rays from a receiver at the pieces of a group in turn.
-void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const EmitterGroups& groups,
+// Receivers that look together, and so see alike: those of patches beside one another on a face.
+struct Looker {
+  uint32_t first, last;  // receivers
+  uint32_t size() const { return last - first; }
+};
+std::vector<Looker> make_lookers(const Casters& from) {
+  const ReceiverTable& receivers = from.receivers;
+  const auto is_single = [&](uint32_t r) { return receivers.first[r + 1] - receivers.first[r] == 1; };
+  // Four that were one patch before they were split.
+  const auto is_sibling = [&](uint32_t a, uint32_t b) {
+    const uint32_t p = receivers.patch[receivers.first[a]], q = receivers.patch[receivers.first[b]];
+    const uint32_t level = from.patches.level[p];
+    return level > 0 && from.patches.face[p] == from.patches.face[q] && from.patches.level[q] == level &&
+           cell_ancestor(from.patches.cell[p], level - 1) == cell_ancestor(from.patches.cell[q], level - 1);
+  };
+  std::vector<Looker> lookers;
+  for (uint32_t r = 0; r < receivers.size(); ++r) {
+    const bool goes_on = r > 0 && is_single(r) && is_single(r - 1) && is_sibling(lookers.back().first, r);
+    if (goes_on)
+      lookers.back().last = r + 1;
+    else
+      lookers.push_back({r, r + 1});
+  }
+  return lookers;
+}
+
+// One packet of rays from a looker's receivers at the pieces of a group in turn.
+void look(Look& sum, const Casters& from, const Looker& looker, bool buried, const EmitterGroups& groups,
           size_t group, uint64_t key, uint32_t packet) {
   const FaceFrameTable& frames = from.surfaces.frames;
   const uint32_t first = groups.piece_first[group], count = groups.piece_count(group);
@@ -59,7 +87,7 @@ void look(Look& sum, const Casters& from, uint32_t receiver, bool buried, const 
     const Vec2 a = make_jitter(key, 2 * index), b = make_jitter(key, 2 * index + 1);
     // Consecutive rays part: origins by strata of 4 x 4, pieces evenly.
     const Vec2 place((static_cast<float>(k % 4) + a.x) * 0.25f, (static_cast<float>(k / 4) + a.y) * 0.25f);
-    const Origin origin = find_origin(from, receiver, place);
+    const Origin origin = find_origin(from, looker.first + (k + k / 4 + packet) % looker.size(), place);
     // A prime strides through all of them, but through no multiple of itself.
     piece[k] = (index * (count == 37 ? 41u : 37u) + packet) % count;
     const Vec3 start = origin.point + ray_offset(origin.point) * origin.normal;
@@ -154,8 +182,8 @@ void find_receiver_neighbours(std::vector<uint32_t>& first, std::vector<uint32_t
 
 }  // namespace
 
-std::vector<uint8_t> find_aiming(const Surfaces& surfaces, const EmitterGroups& groups,
-                                 const PatchTable& patches, const ReceiverTable& receivers) {
+std::vector<float> find_emission_by_rows(const Surfaces& surfaces, const EmitterGroups& groups,
+                                         const PatchTable& patches, const ReceiverTable& receivers) {
   const FaceTable& faces = surfaces.faces;
   const size_t count = faces.size() ? faces.polygon.back() + 1 : 0;
   UnionFind sets(count);
@@ -166,57 +194,85 @@ std::vector<uint8_t> find_aiming(const Surfaces& surfaces, const EmitterGroups& 
   std::vector<std::vector<uint32_t>> rows(count);
   for (uint32_t row = 0; row < patches.size(); ++row)
     rows[sets.find(faces.polygon[patches.face[row]])].push_back(row);
-  std::vector<uint8_t> aiming(count, 1);
+  std::vector<float> by_rows(count, 0);
   const size_t probes = std::clamp(65536 / std::max(groups.pieces.size(), size_t{1}), size_t{4}, size_t{64});
   for_rows(count, 4, [&](size_t begin, size_t end) {
+    std::vector<double> sky(groups.lamp_group_count());  // of a polygon, times area: a row a group
     for (size_t polygon = begin; polygon < end; ++polygon) {
-      double sky = 0, area = 0;
+      std::fill(sky.begin(), sky.end(), 0.0);
+      double all = 0, area = 0;
       const size_t step = std::max(rows[polygon].size() / probes, size_t{1});
       for (size_t k = 0; k < rows[polygon].size(); k += step) {
         const uint32_t row = rows[polygon][k], face = patches.face[row];
         const double exposed = patches.area[row] * patches.exposed[row];
         const Vec3 centre = cell_centre(surfaces.frames, face, patches.cell[row], patches.level[row]);
         area += exposed;
-        for (const Emitter& piece : groups.pieces)
-          if (piece.face != face) sky += exposed * find_point_factor(centre, faces.normal[face], piece);
+        for (size_t g = 0; g < sky.size(); ++g)
+          for (uint32_t piece = groups.piece_first[g]; piece < groups.piece_first[g + 1]; ++piece)
+            if (groups.pieces[piece].face != face)
+              sky[g] += exposed * find_point_factor(centre, faces.normal[face], groups.pieces[piece]);
       }
-      aiming[polygon] = sky <= kEmitterSkyMax * area;
+      for (const double share : sky) all += share;
+      if (all <= kEmitterSkyMax * area) continue;
+      // Groups as bright as one another stand side by side, the brightest first.
+      double alike = 0;
+      for (size_t g = 0; g < sky.size(); ++g) {
+        alike = g > 0 && groups.brightest[g] == groups.brightest[g - 1] ? alike + sky[g] : sky[g];
+        if (alike <= kSpotSkyMax * area) continue;
+        by_rows[polygon] = groups.brightest[g];
+        break;
+      }
     }
   });
-  for (uint32_t polygon = 0; polygon < count; ++polygon) aiming[polygon] = aiming[sets.find(polygon)];
-  return aiming;
+  for (uint32_t polygon = 0; polygon < count; ++polygon) by_rows[polygon] = by_rows[sets.find(polygon)];
+  return by_rows;
 }
 
-SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::span<const uint8_t> aiming,
-                       uint64_t& ray_count) {
+SightTable find_sights(const Casters& from, const EmitterGroups& groups,
+                       std::span<const float> emission_by_rows, uint64_t& ray_count) {
   const ReceiverTable& receivers = from.receivers;
   const FaceTable& faces = from.surfaces.faces;
   const size_t count = receivers.size(), group_count = groups.size();
+  const std::vector<Looker> lookers = make_lookers(from);
   std::vector<uint64_t> seen(count * group_count, 0);
   std::vector<uint8_t> clear(count * group_count, 0);
   const std::vector<std::vector<size_t>> beside_group = find_groups_beside(groups);
   std::atomic<uint64_t> cast{0};
-  for_rows(count, 32, [&](size_t begin, size_t end) {
+  for_rows(lookers.size(), 8, [&](size_t begin, size_t end) {
     std::array<float, kGroupPiecesMax> strength;
     SkyIrradiance sky;
     std::vector<Look> looks;
     std::vector<uint8_t> glimpsed, is_looked_at;
+    std::vector<size_t> asked;  // groups
     std::vector<float> sums(group_count);
     uint64_t rays = 0;
-    for (auto r = static_cast<uint32_t>(begin); r < end; ++r) {
-      const uint32_t patch = receivers.patch[receivers.first[r]], face = from.patches.face[patch];
-      // All look at the sky: rows tell nothing of it.
-      const size_t group_first = aiming[faces.polygon[face]] ? 0 : groups.lamp_group_count();
-      if (group_first == group_count) continue;
-      float exposed = 0, sky_sum = 0;
-      for (uint32_t k = receivers.first[r]; k < receivers.first[r + 1]; ++k)
-        exposed = std::max(exposed, from.patches.exposed[receivers.patch[k]]);
-      if (exposed == 0) continue;
-      const bool buried = exposed < 1;
-      for (size_t g = group_first; g < group_count; ++g) {
-        sums[g] = groups.is_sky(g)
-                      ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
-                      : find_strengths(strength, groups, g, receivers.centre[r], receivers.normal[r]);
+    for (size_t l = begin; l < end; ++l) {
+      const Looker& looker = lookers[l];
+      const uint32_t r = looker.first, patch = receivers.patch[receivers.first[r]];
+      const uint32_t face = from.patches.face[patch];
+      // The lamps that are aimed at come first, and all look at the sky: rows tell nothing of it.
+      const float by_rows = emission_by_rows[faces.polygon[face]];
+      size_t lamp_end = 0;
+      while (lamp_end < groups.lamp_group_count() && groups.brightest[lamp_end] > by_rows) ++lamp_end;
+      const size_t sky_first = groups.lamp_group_count();
+      if (lamp_end == 0 && sky_first == group_count) continue;
+      asked.clear();
+      for (size_t g = 0; g < lamp_end; ++g) asked.push_back(g);
+      for (size_t g = sky_first; g < group_count; ++g) asked.push_back(g);
+      float least_exposed = 1, most_exposed = 0, sky_sum = 0;
+      Vec3 centre(0);
+      for (uint32_t member = r; member < looker.last; ++member) {
+        float exposed = 0;
+        for (uint32_t k = receivers.first[member]; k < receivers.first[member + 1]; ++k)
+          exposed = std::max(exposed, from.patches.exposed[receivers.patch[k]]);
+        least_exposed = std::min(least_exposed, exposed), most_exposed = std::max(most_exposed, exposed);
+        centre += receivers.centre[member] / static_cast<float>(looker.size());
+      }
+      if (most_exposed == 0) continue;
+      const bool buried = least_exposed < 1;
+      for (const size_t g : asked) {
+        sums[g] = groups.is_sky(g) ? find_sky_strength(sky, groups, g, from.surfaces, receivers.normal[r])
+                                   : find_strengths(strength, groups, g, centre, receivers.normal[r]);
         if (groups.is_sky_cells(g)) sky_sum += sums[g];
       }
       const bool single = receivers.first[r + 1] - receivers.first[r] == 1;
@@ -226,21 +282,21 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
             make_ray_key(from.seed, face, from.patches.cell[patch], from.patches.level[patch], kSightRays) +
             g);
         for (uint32_t packet = first; packet < last; ++packet)
-          look(looks[g], from, r, buried, groups, g, key, packet);
+          look(looks[g], from, looker, buried, groups, g, key, packet);
       };
       const auto is_below = [&](size_t g) { return groups.is_sky(g) && single && sums[g] == 0; };
       // A glance at all of the sky, for most of it is hidden from most; then at what may be seen.
-      for (size_t g = std::max(group_first, groups.lamp_group_count()); g < group_count; ++g)
+      for (size_t g = sky_first; g < group_count; ++g)
         if (!is_below(g)) look_at(g, 0, kGlancePackets);
       const auto is_glimpsed = [&](size_t g) { return glimpsed[g] != 0; };
       glimpsed.assign(group_count, 0);
       is_looked_at.assign(group_count, 0);
       size_t glimpsed_count = 0;
-      for (size_t g = group_first; g < group_count; ++g) {
+      for (const size_t g : asked) {
         glimpsed[g] = looks[g].arrived > 0;
         glimpsed_count += glimpsed[g];
       }
-      for (size_t g = group_first; g < group_count; ++g) {
+      for (const size_t g : asked) {
         if (is_below(g) || (groups.is_sky_cells(g) &&
                             std::none_of(beside_group[g].begin(), beside_group[g].end(), is_glimpsed))) {
           rays += looks[g].rays;
@@ -252,9 +308,9 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
       }
       // What is hidden, however strong, says nothing of what counts.
       float all = 0;
-      for (size_t g = group_first; g < group_count; ++g)
+      for (const size_t g : asked)
         if (looks[g].arrived > 0) all += sums[g];
-      for (size_t g = group_first; g < group_count; ++g) {
+      for (const size_t g : asked) {
         if (!is_looked_at[g]) continue;
         const Look& sum = looks[g];
         // Through a window few groups of the sky are seen, and all of them count.
@@ -264,8 +320,10 @@ SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::sp
         if (!weak && !groups.is_sun(g) && sum.rays > 0 && sum.arrived < sum.rays)
           look_at(g, kFirstPackets, kMixedPackets);
         rays += sum.rays;
-        seen[r * group_count + g] = sum.reached;
-        clear[r * group_count + g] = sum.rays > 0 && sum.arrived == sum.rays && !buried;
+        for (size_t member = r; member < looker.last; ++member) {
+          seen[member * group_count + g] = sum.reached;
+          clear[member * group_count + g] = sum.rays > 0 && sum.arrived == sum.rays && !buried;
+        }
       }
     }
     cast += rays;

@@ -7,15 +7,16 @@
 
 namespace patchlight {
 
-// Polygons that aim at emitters: all of them, or none where emitters fill most of their sky, for then rows
-// see them better. One answer for all polygons whose patches share receivers. A row a polygon.
-std::vector<uint8_t> find_aiming(const Surfaces& surfaces, const EmitterGroups& groups,
-                                 const PatchTable& patches, const ReceiverTable& receivers);
+// Where emitters fill most of a polygon's sky its rows see them better than rays that aim at each. A row a
+// polygon: its rows see what emits up to this (W/m2, luminance), and it aims at what is brighter, such as a
+// sun before a dome; 0: it aims at all. One answer for all polygons whose patches share receivers.
+std::vector<float> find_emission_by_rows(const Surfaces& surfaces, const EmitterGroups& groups,
+                                         const PatchTable& patches, const ReceiverTable& receivers);
 
-// Looks from all receivers at all groups; those that do not aim look at the sky alone. What a receiver's
-// neighbours see it may see, too. Raises ray_count.
-SightTable find_sights(const Casters& from, const EmitterGroups& groups, std::span<const uint8_t> aiming,
-                       uint64_t& ray_count);
+// Looks from all receivers at all groups that they aim at, the sky's always. What a receiver's neighbours see
+// it may see, too. Raises ray_count.
+SightTable find_sights(const Casters& from, const EmitterGroups& groups,
+                       std::span<const float> emission_by_rows, uint64_t& ray_count);
 
 // After patches were split: receivers keep what those that they come from saw. receiver_before: a row a
 // receiver.

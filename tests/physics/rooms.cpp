@@ -242,6 +242,30 @@ TEST_CASE("a strong lamp in the next room takes nothing from a weak one in this 
   CHECK(received[1] == doctest::Approx(received[0]).epsilon(2e-3));
 }
 
+TEST_CASE("a small bright lamp is not lost among walls that all emit") {
+  BoxSurfaces walls = make_box_surfaces(make_surface(1, 0));
+  FaceTable faces;
+  const uint32_t room = add_box_inward(faces, {0, 0, 0}, {1, 1, 1}, walls);
+  uint32_t floor = room;  // the face that looks up
+  while (faces.normal[floor].y < 0.5f) ++floor;
+  faces.emission[floor] = Rgb(0), faces.reflectance[floor] = Rgb(0.5f);
+  // A sun before its sky: about as much light as all of that.
+  const uint32_t lamp = add_quad(faces, {0.49f, 0.9f, 0.49f}, {0.51f, 0.9f, 0.49f}, {0.51f, 0.9f, 0.51f},
+                                 {0.49f, 0.9f, 0.51f}, make_surface(1e4f, 0));
+  map_scene(faces, 0.4f, Vec3(0));
+  const Solution s = solve_scene(faces, {}, 1);
+  const FaceFrameTable& frames = s.surfaces->frames;
+  const std::vector<Rgb> irradiance = element_irradiance(s);
+  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
+    if (s.mesh.elements.face[row] != floor) continue;
+    const Vec3 centre = cell_centre(frames, floor, s.mesh.elements.cell[row], s.mesh.elements.level[row]);
+    const double factor = find_point_form_factor(DVec3(centre), DVec3(0, 1, 0), faces.corners[lamp]);
+    // What the lamp hides of the walls is a ten-thousandth; the light bends by less than this over an
+    // element.
+    CHECK(irradiance[row].g == doctest::Approx(1 + (1e4 - 1) * factor).epsilon(5e-3));
+  }
+}
+
 TEST_CASE("no light goes through a small shade from its inside to its outside") {
   FaceTable faces;
   const Surface white = make_surface(0, 0.8f);

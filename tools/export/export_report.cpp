@@ -66,15 +66,17 @@ Json make_objects(const ObjectPowerTable& power, const Scene& scene) {
   return objects;
 }
 
-// Shares of the mean of all light that surfaces send on; of an object, on its own area.
+// Shares of the mean light of what pictures show, and of all surfaces; of an object, on its own area.
 Json make_error(const ErrorTable& error, const Scene& scene) {
   const auto describe = [](const ErrorParts& parts, double factor) {
     return Json{{"estimate", factor * parts.estimate()},
                 {"noise_direct", factor * parts.noise_direct},
                 {"noise_rows", factor * parts.noise_rows},
-                {"mesh", factor * parts.mesh}};
+                {"mesh", factor * parts.mesh},
+                {"passes", factor * parts.passes}};
   };
-  Json json = describe(error.whole, 1);
+  Json json = describe(error.shown, 1);
+  json["surfaces"] = describe(error.surfaces, 1);
   json["asked"] = scene.solver.error;
   const size_t count = std::min(scene.object_ids.size(), kObjectsMax);
   std::vector<ErrorParts> parts(count);
@@ -88,6 +90,7 @@ Json make_error(const ErrorTable& error, const Scene& scene) {
     parts[object].noise_direct += error.polygon[polygon].noise_direct;
     parts[object].noise_rows += error.polygon[polygon].noise_rows;
     parts[object].mesh += error.polygon[polygon].mesh;
+    parts[object].passes += error.polygon[polygon].passes;
   }
   json["objects"] = Json::array();
   for (size_t object = 0; object < count; ++object) {

@@ -20,11 +20,6 @@ uint64_t count_film_bytes(const FilmTable& film) {
 }
 
 // Films show corners of patches, or one value a patch.
-bool is_smooth(const Task& task) {
-  const FalseColor* color = task.plan.look.false_color;
-  return task.scene.output.shading == Shading::kSmooth && !(color != nullptr && color->of_patches);
-}
-
 void make_films(PictureState& pictures, const Task& task, const Solution& solution) {
   for (const Camera& camera : task.plan.cameras) {
     const FilmSettings settings{
@@ -82,6 +77,11 @@ void fix_scales(PictureState& pictures, const Task& task, const Solution& soluti
 }
 
 }  // namespace
+
+bool is_smooth(const Task& task) {
+  const FalseColor* color = task.plan.look.false_color;
+  return task.scene.output.shading == Shading::kSmooth && !(color != nullptr && color->of_patches);
+}
 
 View make_view(const Camera& camera) {
   return {.eye = Vec3(camera.eye),

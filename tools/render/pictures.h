@@ -19,6 +19,9 @@ View make_view(const Camera& camera);
 // stays right whatever comes later: the exposure and the scale of false colours.
 PictureState start_pictures(const Task& task, const Solution& solution);
 
+// Do films show values at vertices, or one an element?
+bool is_smooth(const Task& task);
+
 // Before pass 1, and after every pass: keeps of its light what later pictures need.
 void keep_light(LightHistory& light, const Task& task, const Solution& solution);
 

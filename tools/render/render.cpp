@@ -147,7 +147,9 @@ void solve(Made& made, const Task& task, Talk& talk) {
     write_run_files(made, task);
   }
   made.report.power = find_power_ledger(made.solution);
-  if (task.plan.solver->goes_by_bounces) made.report.error = find_error(made.solution);
+  if (task.plan.solver->goes_by_bounces)
+    made.report.error =
+        find_error(made.solution, is_smooth(task) ? made.pictures.films : std::vector<FilmTable>());
   made.report.health = find_health(task.scene, made.solution);
   made.report.objects = find_object_power(task.scene, made.solution);
   made.report.solution_hash = find_solution_hash(made.solution);
@@ -246,7 +248,7 @@ void warn_not_closed(const Scene& scene, const RunReport& report, Talk& talk) {
 // Told only where twice as much is likely: the estimate is one.
 void warn_budget_reached(const Scene& scene, const RunReport& report, Talk& talk) {
   if (!report.error || report.stopped_reason != "converged") return;
-  const ErrorParts& parts = report.error->whole;
+  const ErrorParts& parts = report.error->shown;
   const double asked = scene.solver.error;
   if (parts.estimate() <= kErrorTold * asked) return;
   const bool mesh = parts.mesh >= std::max(parts.noise_direct, parts.noise_rows);

@@ -38,7 +38,7 @@ Field make_field(float dark, float bright) {
 }
 
 std::vector<uint8_t> mark(const Field& field, float threshold, float size_min, uint64_t budget, float mean) {
-  const std::vector<float> sizes(field.surfaces->faces.size(), size_min);
+  const std::vector<float> sizes(field.elements.size(), size_min);
   return mark_differing({field.elements, field.direct, field.error, field.fresh, mean}, *field.surfaces,
                         {threshold, sizes, budget});
 }

@@ -29,22 +29,22 @@ double find_difference(const Solution& a, const Solution& b) {
 TEST_CASE("error: nothing is told before the first pass") {
   Solution run = solve_scene(make_furnished_room(), {}, 0);
   freeze(run);
-  CHECK(find_error(run).whole.estimate() == 0);
+  CHECK(find_error(run, {}).surfaces.estimate() == 0);
 }
 
 TEST_CASE("error: the parts of polygons add up to the whole") {
   const Solution run = solve_scene(make_furnished_room(), {}, 16);
-  const ErrorTable error = find_error(run);
+  const ErrorTable error = find_error(run, {});
   ErrorParts sum;
   for (const ErrorParts& parts : error.polygon) {
     sum.noise_direct += parts.noise_direct;
     sum.noise_rows += parts.noise_rows;
     sum.mesh += parts.mesh;
   }
-  CHECK(sum.noise_direct == doctest::Approx(error.whole.noise_direct).epsilon(1e-9));
-  CHECK(sum.noise_rows == doctest::Approx(error.whole.noise_rows).epsilon(1e-9));
-  CHECK(sum.mesh == doctest::Approx(error.whole.mesh).epsilon(1e-9));
-  CHECK(error.whole.estimate() > 0);
+  CHECK(sum.noise_direct == doctest::Approx(error.surfaces.noise_direct).epsilon(1e-9));
+  CHECK(sum.noise_rows == doctest::Approx(error.surfaces.noise_rows).epsilon(1e-9));
+  CHECK(sum.mesh == doctest::Approx(error.surfaces.mesh).epsilon(1e-9));
+  CHECK(error.surfaces.estimate() > 0);
 }
 
 TEST_CASE("error: the noise of rows that is told is about what another seed shows") {
@@ -56,7 +56,7 @@ TEST_CASE("error: the noise of rows that is told is about what another seed show
   settings.seed = 2;
   const Solution b = solve_scene(make_furnished_room(), settings, 16);
   REQUIRE(a.mesh.patches.size() == b.mesh.patches.size());
-  const double told = find_error(a).whole.noise_rows, seen = find_difference(a, b) / std::sqrt(2);
+  const double told = find_error(a, {}).surfaces.noise_rows, seen = find_difference(a, b) / std::sqrt(2);
   // The promise is a factor of 2; it holds for one room out of many with the luck of its two seeds.
   CHECK(told < 3 * seen);
   CHECK(told > seen / 3);
@@ -64,7 +64,7 @@ TEST_CASE("error: the noise of rows that is told is about what another seed show
 
 TEST_CASE("error: a smaller one that is asked for gives a smaller one") {
   SolverSettings settings;
-  const double usual = find_error(solve_scene(make_furnished_room(), settings, 16)).whole.estimate();
+  const double usual = find_error(solve_scene(make_furnished_room(), settings, 16), {}).surfaces.estimate();
   settings.error = 0.004;
-  CHECK(find_error(solve_scene(make_furnished_room(), settings, 16)).whole.estimate() < usual);
+  CHECK(find_error(solve_scene(make_furnished_room(), settings, 16), {}).surfaces.estimate() < usual);
 }

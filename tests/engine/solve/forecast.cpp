@@ -72,7 +72,7 @@ TEST_CASE("more rays, patches, passes or faces take longer; rows that are not ke
   };
   CHECK(with([](SolverSettings& s) { s.rays = 1024; }).seconds > 2 * usual.seconds);
   CHECK(with([](SolverSettings& s) { s.pass_count_max = 1000; }).seconds > usual.seconds);
-  const Forecast fine = with([](SolverSettings& s) { s.patch_size = 0.004f, s.patch_count_max = 2'000'000; });
+  const Forecast fine = with([](SolverSettings& s) { s.patch_size = 0.003f, s.patch_count_max = 2'000'000; });
   CHECK(fine.seconds > 2 * usual.seconds);
   CHECK(fine.bytes > 2 * usual.bytes);
   const Forecast coarse = with([](SolverSettings& s) { s.patch_count_max = 1000; });

@@ -172,11 +172,11 @@ TEST_CASE("gather: rows count emission, but not those of polygons that aim at it
   faces.emission[kCeiling] = Rgb(2), faces.emission[kLeft] = Rgb(1);
   const auto surfaces = make_surfaces(faces);
   const Room room = make_room(surfaces, 1);
-  std::vector<uint8_t> aiming(faces.size(), 0);
+  std::vector<float> by_rows(faces.size(), 2);
   std::vector<Rgb> all(room.patches.size()), others(all);
-  gather_emission(all, {}, get_rows(room), aiming);
-  aiming[faces.polygon[0]] = 1;
-  gather_emission(others, {}, get_rows(room), aiming);
+  gather_emission(all, {}, get_rows(room), by_rows);
+  by_rows[faces.polygon[0]] = 0;
+  gather_emission(others, {}, get_rows(room), by_rows);
   double floor_all = 0;
   const uint32_t count = room.patches.face_first[1];
   for (uint32_t row = 0; row < count; ++row) floor_all += double{all[row].g} / count;

@@ -51,7 +51,7 @@ TEST_CASE("every setting says where it comes from") {
   CHECK(ask("let.m") == "4 <- room.yaml:3:16 (=$n+1)");
   CHECK(ask("solver.passes") == "3 <- room.yaml:9:18 ($n)");
   CHECK(ask("solver.until") == "0.25 <- room.yaml:9:29");
-  CHECK(ask("solver.rays") == "256 <- built-in");
+  CHECK(ask("solver.rays") == "144 <- built-in");
   CHECK(ask("solver.patch_size") == "automatic <- built-in");
   CHECK(ask("cameras.near.fov") == "45 <- room.yaml:7:58");
   CHECK(ask("cameras.near.up") == "[0, 1, 0] <- built-in");
