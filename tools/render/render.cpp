@@ -233,7 +233,7 @@ void warn_not_converged(const Scene& scene, const RunReport& report, std::span<c
 }
 
 // Where the ledger does not close, light is missing or too much somewhere.
-constexpr double kClosureTold = 0.01;
+constexpr double kClosureTold = 0.003;
 constexpr double kErrorTold = 2;
 void warn_not_closed(const Scene& scene, const RunReport& report, Talk& talk) {
   if (!report.power || report.power->closure_error <= kClosureTold) return;
