@@ -16,8 +16,8 @@ constexpr float kPatchEdgeMinAtSolid = 0.0021f;
 // use the same mean for the reach of a sample).
 constexpr float kPatchEdgePerDistance = 0.1f;
 
-// What lies before a cell, told by a few rays of its own. Black fronts send nothing on and do not count as hits:
-// lamps, and domes that are there for a sky.
+// What lies before a cell, told by a few rays of its own. Black fronts send nothing on and do not count as
+// hits: lamps, and domes that are there for a sky.
 struct Probe {
   uint32_t ray_count = 0, hit_count = 0, buried_count = 0;
   float inverse_distance_sum = 0;  // over the hits, 1 / lengths

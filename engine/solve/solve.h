@@ -56,10 +56,10 @@ struct PowerLedger {
 struct Transport {
   EmitterGroups groups;
   std::vector<float> emission_by_rows;  // a row a polygon: what its rows see of the emitters (sights.h)
-  SightTable sights;            // a row a receiver
-  ReceiverTable receivers;      // of the patches
-  HitTable hits;                // a row of rays a receiver
-  SmoothingTable smoothing;     // of what rows carry; made when the mesh is final
+  SightTable sights;                    // a row a receiver
+  ReceiverTable receivers;              // of the patches
+  HitTable hits;                        // a row of rays a receiver
+  SmoothingTable smoothing;             // of what rows carry; made when the mesh is final
 };
 
 // In W/m2. The irradiance of an element, under every solver: its row of `sharp` and, at its centre, the

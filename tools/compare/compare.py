@@ -1,7 +1,8 @@
 """patchlight beside Blender's path tracer on the same scenes: error and time. Run by tools/compare/compare.
 
 Error: mean absolute error over mean, of 2 x 2 pixel means, lamps and a ring of one around them left out; the reference's
-own noise, measured from two seeds, is taken out in quadrature.
+own noise, measured from two halves of it, is taken out in quadrature. With --rows the reference is a few rows of such means
+alone, of as many more samples: errors of a hundredth need them where light is hard to find.
 """
 import argparse
 import hashlib
@@ -28,6 +29,7 @@ def read_arguments():
     parser.add_argument("--build", required=True, help="folder of the built programs")
     parser.add_argument("--size", type=int, default=256, help="pixels each way (256)")
     parser.add_argument("--samples", type=int, default=2048, help="of a reference, a pixel and seed (2048)")
+    parser.add_argument("--rows", type=int, default=0, help="rows of a reference; 0: the whole picture (0)")
     parser.add_argument("--beside", type=int, default=16, help="samples of the path tracer to time (16)")
     parser.add_argument("--runs", type=int, default=5, help="timed runs; the median counts (5)")
     parser.add_argument("--passes", default="1,2,end", help="which to compare (1,2,end)")
@@ -86,7 +88,27 @@ class References:
             return path_tracer.render(scene, 64, 1, 0)[0]
         return self.cached("lamps", make).max(2) > 0
 
+    def rows(self):
+        """Which rows of 2 x 2 means a reference shows: all, or a few, evenly."""
+        half, count = self.options.size // 2, self.options.rows
+        return [(2 * k + 1) * half // (2 * count) for k in range(count)] if count else list(range(half))
+
     def pair(self, bounces):
+        """Two halves of a reference: 2 x 2 means at rows()."""
+        samples = self.options.samples
+        if self.options.rows:
+            return list(self.cached(f"{bounces}-{samples}-rows-{self.options.rows}", lambda: self.trace_rows(bounces)))
+        return [halve(picture) for picture in self.pictures(bounces)]
+
+    def trace_rows(self, bounces):
+        scene = path_tracer.make_scene(self.export, self.options.size // 2, self.options.threads)
+        # Sequences of samples are good for some thousands.
+        parts = max(self.options.samples // 4096, 1)
+        halves = [[[path_tracer.render_row(scene, row, self.options.samples // parts, parts * half + part + 1, bounces)
+                    for row in self.rows()] for part in range(parts)] for half in range(2)]
+        return numpy.mean(halves, 1)
+
+    def pictures(self, bounces):
         samples = self.options.samples
         return [self.cached(f"{bounces}-{samples}-{seed}",
                             lambda: path_tracer.render(self.blender_scene(), samples, seed, bounces)[0])
@@ -100,12 +122,12 @@ class References:
 
 
 def measure(picture, references, lit):
-    """(error, noise of the references' mean): shares of the mean over the cells of `lit`."""
-    a, b = (halve(reference)[lit] for reference in references)
+    """(error, noise of the references' mean): shares of the mean over the cells of `lit`; all of 2 x 2 means."""
+    a, b = (reference[lit] for reference in references)
     mean = (a + b) / 2
     scale = mean.mean()
     noise = numpy.abs(a - b).mean() / 2 / scale
-    raw = numpy.abs(halve(picture)[lit] - mean).mean() / scale
+    raw = numpy.abs(picture[lit] - mean).mean() / scale
     return numpy.sqrt(max(raw * raw - noise * noise, 0)), noise
 
 
@@ -148,23 +170,25 @@ def compare(scene, options):
                                        capture_output=True).stdout)
     references = References(export, options)
     lamps = references.lamps()
-    lit = ~grow(lamps.reshape(lamps.shape[0] // 2, 2, -1, 2).any((1, 3)))
+    rows = references.rows()
+    lit = ~grow(lamps.reshape(lamps.shape[0] // 2, 2, -1, 2).any((1, 3)))[rows]
     pictures, report = patchlight_pictures(scene, options)
     line = f"{name:14}"
     for key in options.passes.split(","):
         pair = references.pair(PASSES[key])
-        error, noise = measure(pictures[key], pair, lit)
+        error, noise = measure(halve(pictures[key])[rows], pair, lit)
         line += f" {100 * error:6.2f} ±{100 * noise:4.2f}"
-        if options.pictures:
-            save_triptych(os.path.join(options.o, f"{name}-{key}.png"), pictures[key], (pair[0] + pair[1]) / 2)
+        if options.pictures and not options.rows:
+            save_triptych(os.path.join(options.o, f"{name}-{key}.png"), pictures[key],
+                          sum(references.pictures(PASSES[key])) / 2)
     if options.runs > 0:
         seconds, picture = references.timed()
-        error, _ = measure(picture, references.pair(PASSES["end"]), lit)
+        error, _ = measure(halve(picture)[rows], references.pair(PASSES["end"]), lit)
         # The whole program, from the scene file to one PNG file.
         ours = float(numpy.median([run_patchlight(scene, options, ["--format", "png", "--snapshots", "16"])
                                    for _ in range(options.runs)]))
         line += f" {ours:8.2f} {seconds:8.2f} {100 * error:7.1f} {ours / seconds:6.2f}"
-    say(line + f" {report['patches']:8d}")
+    say(line + f" {report['patches']:8d} {100 * report['error']['estimate']:6.2f}")
 
 
 def main():
@@ -174,7 +198,7 @@ def main():
     header = f"{'error in % of':14}" + "".join(f" {'pass ' + key:>12}" for key in keys)
     if options.runs > 0:
         header += f" {'ours s':>8} {f'Cycles s':>8} {'its err':>7} {'ratio':>6}"
-    say(header + f" {'leaves':>8}")
+    say(header + f" {'leaves':>8} {'told':>6}")
     for scene in options.scenes:
         compare(scene, options)
 

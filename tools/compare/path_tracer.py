@@ -134,6 +134,16 @@ def add_camera(scene, view):
     scene.camera = holder
 
 
+def render_row(scene, row, samples, seed, bounces):
+    """One row of the picture, 0 at the top: an array (width, 3)."""
+    size = scene.render.resolution_y
+    scene.cycles.use_auto_tile = False
+    scene.render.use_border = scene.render.use_crop_to_border = True
+    scene.render.border_min_x, scene.render.border_max_x = 0, 1
+    scene.render.border_min_y, scene.render.border_max_y = (size - row - 1) / size, (size - row) / size
+    return render(scene, samples, seed, bounces)[0][0]
+
+
 def render(scene, samples, seed, bounces):
     """The picture, and the seconds of the render alone: Blender's own start does not count."""
     cycles = scene.cycles

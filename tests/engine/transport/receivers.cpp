@@ -105,9 +105,9 @@ TEST_CASE("receivers: small triangles share rows, faces of a room keep their own
     else
       ++box_rows;
   }
-  // Where the gap's height asks for the finest, a receiver spans 0.01 of the square root of the area: 0.03 of an edge here, or
-  // about 170 a sheet and side, twice as many where sixteen rays take the gap for deeper or flatter than it
-  // is.
+  // Where the gap's height asks for the finest, a receiver spans 0.01 of the square root of the area: 0.03 of
+  // an edge here, or about 170 a sheet and side, twice as many where sixteen rays take the gap for deeper or
+  // flatter than it is.
   CHECK(box_rows < triangles / 8);
 }
 
