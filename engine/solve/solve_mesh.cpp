@@ -16,6 +16,7 @@ namespace patchlight {
 namespace {
 
 constexpr float kVisibleNoise = 0.005f;  // share of an element's radiosity
+constexpr size_t kOwnRowsMax = 60'000;   // patches: beyond, small faces share rows
 constexpr float kLargeElement = 6;       // least sizes
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
@@ -327,7 +328,10 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   const AskedSizes asked = find_asked_sizes(s.surfaces->faces, settings);
   s.mesh.patches = make_patches(*s.surfaces, make_patch_settings(s, asked), ray_count);
   s.mesh.patch_reach = find_patch_reach(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
-  s.transport.receivers = make_receivers(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
+  // Where patches are few a row each costs little, and no light that differs among them is lost.
+  s.transport.receivers = s.mesh.patches.size() <= kOwnRowsMax
+                              ? make_single_receivers(s.mesh.patches, *s.surfaces)
+                              : make_receivers(s.mesh.patches, *s.surfaces, settings.seed, ray_count);
   s.log.split_seconds += watch.lap();
   s.mesh.patch_index = make_leaf_index(s.mesh.patches);
   ray_count += cast_rows(s.transport.hits, s.mesh.patches.exposed, all_rows(s.transport.receivers.size()),
