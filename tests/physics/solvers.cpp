@@ -273,7 +273,7 @@ TEST_CASE("under a ball of small facets the passes agree with the matrix") {
     squares += off * off, ++count;
   }
   CHECK(count >= 80);
-  // Means over facets of rows of 144 stratified rays, about 1 % each. One row for a part of the ball would make
-  // it 2 %.
+  // Means over facets of rows of 144 stratified rays, about 1 % each. One row for a part of the ball would
+  // make it 2 %.
   CHECK(std::sqrt(squares / count) <= 0.01);
 }
