@@ -97,7 +97,8 @@ constexpr KeyRow kSkyRows[] = {
     {"kind", kChoice, false, "plain", 0, 0, "bad-name", "plain|overcast|clear",
      "plain, or how bright a standard sky is in each direction: overcast (CIE) or clear (Preetham)."},
     {"emission", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
-     "What a horizontal plane under the whole sky receives, W/m2; of a plain sky the emission all over."},
+     "What a horizontal plane under the whole sky receives, W/m2 (overcast and clear: 100 unless said); of a "
+     "plain sky the emission all over."},
     {"zenith", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
      "Emission overhead, W/m2; from the horizon to there it grows with the sine of the elevation."},
     {"horizon", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
@@ -108,8 +109,8 @@ constexpr KeyRow kSkyRows[] = {
      "Haze of a clear sky: 2 is very clear, 10 hazy."},
 };
 constexpr KeyRule kSkyRules[] = {
-    {kOneOf, "emission|zenith|horizon", "", "missing-key",
-     "a sky wants 'emission', or 'zenith' and 'horizon'"},
+    {kOneOf, "emission|zenith|horizon|kind", "", "missing-key",
+     "a sky wants 'emission', or 'zenith' and 'horizon', or a 'kind'"},
     {kExcludes, "zenith|horizon", "emission", "ambiguous-sky",
      "a sky has either 'emission', or 'zenith' and 'horizon'"},
     {kNeeds, "zenith", "horizon", "missing-key", "'zenith' wants 'horizon' beside it"},
@@ -117,8 +118,8 @@ constexpr KeyRule kSkyRules[] = {
 };
 
 constexpr KeyRow kSunRows[] = {
-    {"direction", kVec3, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "",
-     "From the scene towards the sun: [0, 1, 0] is overhead."},
+    {"direction", kVec3OrMap, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "sun_direction",
+     "From the scene towards the sun: [0, 1, 0] is overhead; or {azimuth: 150, elevation: 40}."},
     {"azimuth", kNumber, false, "", -360, 360, "out-of-range", "",
      "Degrees from north (-z) by way of east (x): clockwise seen from above."},
     {"elevation", kNumber, false, "", -90, 90, "out-of-range", "", "Degrees above the horizon."},
@@ -127,6 +128,11 @@ constexpr KeyRow kSunRows[] = {
     {"emission", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
      "Instead: the exitance of its disc, W/m2."},
     {"angle", kNumber, false, "0.53", 0.01, 90, "out-of-range", "", "Its diameter, degrees."},
+};
+constexpr KeyRow kSunDirectionRows[] = {
+    {"azimuth", kNumber, true, "", -360, 360, "out-of-range", "",
+     "Degrees from north (-z) by way of east (x): clockwise seen from above."},
+    {"elevation", kNumber, true, "", -90, 90, "out-of-range", "", "Degrees above the horizon."},
 };
 constexpr KeyRule kSunRules[] = {
     {kOneOf, "direction|elevation|azimuth", "", "missing-key",
@@ -179,6 +185,7 @@ const KeyTable kExpectKeys = {"expect", kExpectRows};
 const KeyTable kMaterialKeys = {"material", kMaterialRows, kMaterialRules};
 const KeyTable kSkyKeys = {"sky", kSkyRows, kSkyRules};
 const KeyTable kSunKeys = {"sun", kSunRows, kSunRules};
+const KeyTable kSunDirectionKeys = {"sun_direction", kSunDirectionRows};
 const KeyTable kSolverKeys = {"solver", kSolverRows};
 const KeyTable kOutputKeys = {"output", kOutputRows};
 

@@ -20,6 +20,7 @@ enum class ValueType : uint8_t {
   kVec2,           // [a, b], each within low..high
   kIntegers2,      // [a, b], whole numbers within low..high
   kVec3,           // [x, y, z], each within low..high
+  kVec3OrMap,      // [x, y, z], or a map of the table `choices`
   kRgb,            // a number or [r, g, b], each within low..high
   kList,           // a list of maps of the table `choices`
   kMap,            // a map: `choices` names the table of its keys, or of its values
@@ -83,6 +84,7 @@ extern const KeyTable kExpectKeys;  // of one entry of `expect`
 extern const KeyTable kMaterialKeys;
 extern const KeyTable kSkyKeys;
 extern const KeyTable kSunKeys;
+extern const KeyTable kSunDirectionKeys;  // of its `direction`, where that is a map
 extern const KeyTable kSolverKeys;
 extern const KeyTable kOutputKeys;
 

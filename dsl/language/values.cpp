@@ -275,6 +275,7 @@ bool read_value(const Context& context, uint32_t node, const KeyRow& row, Value&
     case ValueType::kCorners:
     case ValueType::kScale:
     case ValueType::kAxis:
+    case ValueType::kVec3OrMap:
     case ValueType::kNumberOrWord:
     case ValueType::kIntegerOrVec3:
       return !report_null(context, node, fmt::format("a value for '{}'", row.key));

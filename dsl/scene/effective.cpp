@@ -5,8 +5,11 @@
 #include "dsl/language/variables.h"
 #include "dsl/report/text.h"
 #include "dsl/scene/cameras.h"
+#include "dsl/scene/language_tables.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace patchlight {
 namespace {
@@ -57,6 +60,24 @@ std::string word_or_number_text(const Context& context, uint32_t node, const Key
 }
 
 // The value of a row as a file would have it; empty for what is a table of its own.
+// "[0, 1, 0]", or "{azimuth: 150, elevation: 40}".
+std::string vector_or_map_text(const Context& context, uint32_t node, const KeyRow& row) {
+  if (context.tree.nodes[node].kind != NodeKind::kMap) {
+    double number[3] = {0, 0, 0};
+    return read_three(context, node, "expected-vec3", number) ? list_text(number, 3) : std::string();
+  }
+  const auto tables = language_tables();
+  const KeyTable* table =
+      *std::find_if(tables.begin(), tables.end(), [&](const KeyTable* t) { return t->name == row.choices; });
+  const MapValues map = read_map(context, node, *table);
+  std::string text;
+  for (const KeyRow& key : table->rows)
+    if (has(map, key.key))
+      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key.key,
+                          number_text(value_of(map, key.key).number[0]));
+  return "{" + text + "}";
+}
+
 std::string value_text(const Context& context, const KeyRow& row, const Value& value) {
   const bool given = value.node != kNone;
   const double integers[2] = {static_cast<double>(value.integer[0]), static_cast<double>(value.integer[1])};
@@ -75,6 +96,8 @@ std::string value_text(const Context& context, const KeyRow& row, const Value& v
       return value.number[0] == value.number[1] && value.number[1] == value.number[2]
                  ? number_text(value.number[0])
                  : list_text(value.number, 3);
+    case ValueType::kVec3OrMap:
+      return given ? vector_or_map_text(context, value.node, row) : std::string(row.fallback);
     case ValueType::kIntegers:
       return given ? integers_text(context, value.node) : std::string(row.fallback);
     case ValueType::kNumberOrWord:

@@ -18,7 +18,7 @@ std::vector<const KeyTable*> join_tables() {
   for (const ShapeRow& shape : shape_rows())
     for (const KeyTable& table : shape.inner) tables.push_back(&table);
   for (const KeyTable* table :
-       {&kSkyKeys, &kSunKeys, &camera_keys(), &kSolverKeys, &kOutputKeys, &kExpectKeys})
+       {&kSkyKeys, &kSunKeys, &kSunDirectionKeys, &camera_keys(), &kSolverKeys, &kOutputKeys, &kExpectKeys})
     tables.push_back(table);
   return tables;
 }

@@ -10,6 +10,8 @@ namespace {
 enum SkyKind : uint8_t { kPlain, kOvercast, kClear };
 
 constexpr double kRadians = std::numbers::pi / 180;  // of a degree
+// What a clear or an overcast sky of a usual day brings to a horizontal plane without the sun, W/m2.
+constexpr Rgb kDaylight(100);
 
 void report(const Context& context, uint32_t node, std::string_view slug, std::string message) {
   add_error(context.messages, place_of(context.tree, node), slug, std::move(message));
@@ -20,14 +22,28 @@ uint32_t map_node(const Context& context, const MapValues& map, std::string_view
   return node != kNone && context.tree.nodes[node].kind == NodeKind::kMap ? node : kNone;
 }
 
-// Unit, towards the sun: x is east, -z north, so that azimuths run clockwise seen from above.
-bool read_sun_direction(const Context& context, const MapValues& map, DVec3& direction) {
-  if (has(map, "direction")) return read_direction(context, value_of(map, "direction"), direction);
+// x is east, -z north, so that azimuths run clockwise seen from above. The map has both angles.
+DVec3 find_direction(const MapValues& map) {
   const double azimuth = value_of(map, "azimuth").number[0] * kRadians;
   const double elevation = value_of(map, "elevation").number[0] * kRadians;
-  direction = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-               -std::cos(elevation) * std::cos(azimuth)};
-  return true;
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+          -std::cos(elevation) * std::cos(azimuth)};
+}
+
+// Unit, towards the sun.
+bool read_sun_direction(const Context& context, const MapValues& map, DVec3& direction) {
+  if (!has(map, "direction")) {
+    direction = find_direction(map);
+    return true;
+  }
+  if (const uint32_t node = map_node(context, map, "direction"); node != kNone) {
+    const MapValues angles = read_map(context, node, kSunDirectionKeys);
+    if (angles.good) direction = find_direction(angles);
+    return angles.good;
+  }
+  Value value = value_of(map, "direction");
+  return read_three(context, value.node, "expected-vec3", value.number) &&
+         read_direction(context, value, direction);
 }
 
 bool read_sun(const Context& context, uint32_t node, Sky& sky, DVec3& direction) {
@@ -71,7 +87,9 @@ void read_sky_map(const Context& context, uint32_t node, const DVec3* sun, bool 
   if (!map.good) return;
   const auto kind = static_cast<SkyKind>(value_of(map, "kind").integer[0]);
   if (!check_kind(context, map, kind)) return;
-  const Rgb emission(vec3_of(value_of(map, "emission")));
+  if (kind == kPlain && !has(map, "emission") && !has(map, "zenith"))
+    return report(context, node, "missing-key", "a plain sky wants 'emission', or 'zenith' and 'horizon'");
+  const Rgb emission = has(map, "emission") ? Rgb(vec3_of(value_of(map, "emission"))) : kDaylight;
   Sky read = make_uniform_sky(emission);
   if (has(map, "zenith")) {
     read.zenith = Rgb(vec3_of(value_of(map, "zenith")));

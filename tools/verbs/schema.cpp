@@ -91,6 +91,8 @@ Json value_schema(const KeyRow& row) {
       return list_of(integer, 2, 2);
     case ValueType::kVec3:
       return list_of(number, 3, 3);
+    case ValueType::kVec3OrMap:
+      return any_of({list_of(number, 3, 3), map_schema(row.choices)});
     case ValueType::kRgb:
       return any_of({with_range({{"type", "number"}}, row), reference("expression"), list_of(number, 3, 3)});
     case ValueType::kList:

@@ -72,6 +72,7 @@ std::string sections_of(const std::string& text, const std::string& table) {
       {"walls", {"### room", "### box"}},
       {"sky", {"## Sky and sun"}},
       {"sun", {"## Sky and sun"}},
+      {"sun_direction", {"## Sky and sun"}},
       {"camera", {"## Camera"}},
       {"solver", {"## Solver and output"}},
       {"output", {"## Solver and output"}},

@@ -29,6 +29,9 @@ TEST_CASE("a plain sky is even, or goes from the horizon to the zenith") {
 
 TEST_CASE("an overcast sky of 70 is 90 overhead and 30 at the horizon") {
   const Sky sky = read_sky("sky: {kind: overcast, emission: 70}\n");
+  // Without a number it is a usual day's.
+  CHECK(find_sky_emission(read_sky("sky: {kind: overcast}\n"), {0, 1, 0}).g ==
+        doctest::Approx(100.0 * 90 / 70));
   CHECK(find_sky_emission(sky, {0, 1, 0}).g == doctest::Approx(90));
   CHECK(find_sky_emission(sky, {1, 0, 0}).g == doctest::Approx(30));
 }
@@ -42,6 +45,7 @@ TEST_CASE("the sun stands where azimuth and elevation say: east is x, north is -
   CHECK(is_near(find_direction("azimuth: 0, elevation: 0"), {0, 0, -1}));
   CHECK(is_near(find_direction("azimuth: 180, elevation: 30"), {0, 0.5f, 0.8660254f}));
   CHECK(is_near(find_direction("direction: [0, 3, 4]"), {0, 0.6f, 0.8f}));
+  CHECK(is_near(find_direction("direction: {azimuth: 180, elevation: 30}"), {0, 0.5f, 0.8660254f}));
 }
 
 TEST_CASE("the sun's emission is its irradiance over the squared sine of half its angle") {
