@@ -266,6 +266,23 @@ TEST_CASE("a small bright lamp is not lost among walls that all emit") {
   }
 }
 
+TEST_CASE("a room on a ground a hundred times as wide: its patches are tiny, and all light is a number") {
+  FaceTable faces;
+  const Surface grey = make_surface(0, 0.5f);
+  add_box_inward(faces, {0, 0, 0}, {4, 3, 4}, make_box_surfaces(grey));
+  add_box_outward(faces, {1, 0, 1}, {2, 1, 2}, grey);
+  add_quad(faces, {1.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 1.5f}, {2.5f, 2.9f, 2.5f}, {1.5f, 2.9f, 2.5f},
+           make_surface(50, 0));
+  add_quad(faces, {-250, -0.01f, -250}, {-250, -0.01f, 250}, {250, -0.01f, 250}, {250, -0.01f, -250}, grey);
+  fit_scene(faces);
+  const Solution s = solve_scene(faces, {}, 6);
+  for (const Rgb& radiosity : s.mesh.elements.radiosity) {
+    REQUIRE(std::isfinite(radiosity.g));
+    REQUIRE(radiosity.g >= 0);
+  }
+  CHECK(find_power_ledger(s).closure_error <= 3e-3);
+}
+
 TEST_CASE("no light goes through a small shade from its inside to its outside") {
   FaceTable faces;
   const Surface white = make_surface(0, 0.8f);
