@@ -41,10 +41,12 @@ DVec3 find_factor_vector(const std::array<DVec3, 3>& corners) {
 
 void add_cell(SkyPieces& pieces, const NetCell& net, int steps, const Sky& sky) {
   const int parts = kSumSteps / steps;
-  std::array<DVec3, 3> corner;
   std::array<Vec3, 3> rounded;
-  for (size_t k = 0; k < 3; ++k)
-    rounded[k] = Vec3(find_direction(net[k], steps)), corner[k] = DVec3(rounded[k]);
+  for (size_t k = 0; k < 3; ++k) rounded[k] = Vec3(find_direction(net[k], steps));
+  pieces.corners.push_back(rounded);
+  // Read back: gcc 12 leaves the rounding out otherwise, and its bits are not those of other compilers.
+  std::array<DVec3, 3> corner;
+  for (size_t k = 0; k < 3; ++k) corner[k] = DVec3(pieces.corners.back()[k]);
   std::array<DVec3, 3> irradiance{};
   DRgb sum(0);
   double weight = 0;
@@ -62,7 +64,6 @@ void add_cell(SkyPieces& pieces, const NetCell& net, int steps, const Sky& sky) 
       add_part(at(a, b), at(a + 1, b), at(a, b + 1));
       if (a + b + 1 < parts) add_part(at(a + 1, b), at(a + 1, b + 1), at(a, b + 1));
     }
-  pieces.corners.push_back(rounded);
   pieces.emission.emplace_back(sum / weight);
   pieces.irradiance.push_back({Vec3(irradiance[0]), Vec3(irradiance[1]), Vec3(irradiance[2])});
 }
