@@ -117,12 +117,14 @@ constexpr KeyRule kSkyRules[] = {
     {kNeeds, "horizon", "zenith", "missing-key", "'horizon' wants 'zenith' beside it"},
 };
 
+constexpr std::string_view kAzimuthText =
+    "Degrees from north (-z) by way of east (x): clockwise seen from above.";
+constexpr std::string_view kElevationText = "Degrees above the horizon.";
 constexpr KeyRow kSunRows[] = {
     {"direction", kVec3OrMap, false, "", -kAnyNumber, kAnyNumber, "out-of-range", "sun_direction",
      "From the scene towards the sun: [0, 1, 0] is overhead; or {azimuth: 150, elevation: 40}."},
-    {"azimuth", kNumber, false, "", -360, 360, "out-of-range", "",
-     "Degrees from north (-z) by way of east (x): clockwise seen from above."},
-    {"elevation", kNumber, false, "", -90, 90, "out-of-range", "", "Degrees above the horizon."},
+    {"azimuth", kNumber, false, "", -360, 360, "out-of-range", "", kAzimuthText},
+    {"elevation", kNumber, false, "", -90, 90, "out-of-range", "", kElevationText},
     {"irradiance", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
      "What it brings to a surface that faces it, W/m2: a number or [r, g, b]."},
     {"emission", kRgb, false, "", 0, kEmissionMax, "emission-range", "",
@@ -130,9 +132,8 @@ constexpr KeyRow kSunRows[] = {
     {"angle", kNumber, false, "0.53", 0.01, 90, "out-of-range", "", "Its diameter, degrees."},
 };
 constexpr KeyRow kSunDirectionRows[] = {
-    {"azimuth", kNumber, true, "", -360, 360, "out-of-range", "",
-     "Degrees from north (-z) by way of east (x): clockwise seen from above."},
-    {"elevation", kNumber, true, "", -90, 90, "out-of-range", "", "Degrees above the horizon."},
+    {"azimuth", kNumber, true, "", -360, 360, "out-of-range", "", kAzimuthText},
+    {"elevation", kNumber, true, "", -90, 90, "out-of-range", "", kElevationText},
 };
 constexpr KeyRule kSunRules[] = {
     {kOneOf, "direction|elevation|azimuth", "", "missing-key",

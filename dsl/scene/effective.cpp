@@ -59,7 +59,6 @@ std::string word_or_number_text(const Context& context, uint32_t node, const Key
   return number_text(number);
 }
 
-// The value of a row as a file would have it; empty for what is a table of its own.
 // "[0, 1, 0]", or "{azimuth: 150, elevation: 40}".
 std::string vector_or_map_text(const Context& context, uint32_t node, const KeyRow& row) {
   if (context.tree.nodes[node].kind != NodeKind::kMap) {
@@ -75,9 +74,10 @@ std::string vector_or_map_text(const Context& context, uint32_t node, const KeyR
     if (has(map, key.key))
       text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key.key,
                           number_text(value_of(map, key.key).number[0]));
-  return "{" + text + "}";
+  return fmt::format("{{{}}}", text);
 }
 
+// The value of a row as a file would have it; empty for what is a table of its own.
 std::string value_text(const Context& context, const KeyRow& row, const Value& value) {
   const bool given = value.node != kNone;
   const double integers[2] = {static_cast<double>(value.integer[0]), static_cast<double>(value.integer[1])};

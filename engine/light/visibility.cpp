@@ -107,18 +107,6 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
   cast_pairs(sums, from, packet, rays, kernel);
 }
 
-// Adds packets while they agree up to `unmixed` rays, and where they do not up to `packet_count` packets.
-template <typename Add>
-VisibilitySums sum_packets(ElementPoints& from, uint32_t packet_count, uint32_t unmixed, const Add& add) {
-  VisibilitySums sums;
-  for (uint32_t packet = 0; packet < packet_count; ++packet) {
-    if (packet >= unmixed / kPacketSize && !sums.mixed()) break;
-    make_packets(from, packet + 1);
-    add(sums, packet);
-  }
-  return sums;
-}
-
 // The points of a packet, just off the element's face.
 void make_points(Points& points, const ElementPoints& from, uint32_t packet) {
   const FaceFrameTable& frames = from.surfaces.frames;
@@ -208,9 +196,13 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
 
 VisibilitySums find_visibility(ElementPoints& from, const Emitter& emitter, uint32_t packet_count,
                                uint32_t unmixed) {
-  return sum_packets(from, packet_count, unmixed, [&](VisibilitySums& sums, uint32_t packet) {
+  VisibilitySums sums;
+  for (uint32_t packet = 0; packet < packet_count; ++packet) {
+    if (packet >= unmixed / kPacketSize && !sums.mixed()) break;
+    make_packets(from, packet + 1);
     add_visibility(sums, from, packet, emitter);
-  });
+  }
+  return sums;
 }
 
 namespace {

@@ -31,17 +31,9 @@ float find_reach_before(const Probe& probe, uint32_t face, const Surfaces& surfa
   return std::min(find_reach_step(surfaces, kReachPerDistance * distance), surfaces.reach[face]);
 }
 
-// Faces that emit and are black: what they receive shows nowhere. Where all is black, as in scenes of heat,
-// it is what is asked for.
-std::vector<uint8_t> find_lamps(const FaceTable& faces) {
-  std::vector<uint8_t> lamps(faces.size());
-  bool any_reflects = false;
-  for (size_t f = 0; f < faces.size(); ++f) {
-    any_reflects |= largest(faces.reflectance[f]) > 0;
-    lamps[f] = largest(faces.reflectance[f]) == 0 && largest(faces.emission[f]) > 0;
-  }
-  if (!any_reflects) lamps.assign(faces.size(), 0);
-  return lamps;
+// A lamp that reflects nothing: what it receives shows nowhere.
+bool is_black_lamp(const Surfaces& surfaces, uint32_t face) {
+  return surfaces.black[face] && largest(surfaces.faces.emission[face]) > 0;
 }
 
 float find_size(const std::vector<float>& asked, uint32_t face) { return asked.empty() ? 0 : asked[face]; }
@@ -101,7 +93,6 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
   PatchTable patches = make_leaves(faces, frames, start_level);
   balance_leaves(patches, frames, links);
   const RayGrid grid = make_ray_grid(kProbeRayCount);
-  const std::vector<uint8_t> lamps = find_lamps(faces);
   std::vector<uint8_t> fresh(patches.size(), 1);
   for (;;) {
     // Of those near to what they see, for their size, or at a solid: their areas in squares of their reach.
@@ -111,7 +102,7 @@ PatchTable make_patches(const Surfaces& surfaces, const PatchSettings& settings,
       for (size_t row = begin; row < end; ++row) {
         const auto [face, cell, level] = name_cell(patches, row);
         const float edge = longest_edge(cell_corners(frames, face, cell, level));
-        if (!fresh[row] || level >= kLevelMax - 2 || lamps[face]) continue;
+        if (!fresh[row] || level >= kLevelMax - 2 || is_black_lamp(surfaces, face)) continue;
         if (edge < 2 * kPatchEdgeMinAtSolid * std::min(find_scale(face), scale_least)) continue;
         if (edge <= find_asked(face)) continue;
         const Probe probe =
@@ -174,13 +165,12 @@ std::vector<uint8_t> mark_uneven(const PatchTable& patches, const PatchLight& li
     power += double{patches.area[row]} * light.total[row];
   }
   const auto power_least = static_cast<float>(kUnevenPower * power / area) * area_factor * area_factor;
-  const std::vector<uint8_t> lamps = find_lamps(surfaces.faces);
   std::vector<float> weight(patches.size(), 0);
   for_rows(patches.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t at = begin; at < end; ++at) {
       const auto row = static_cast<uint32_t>(at);
       const uint32_t face = patches.face[row], level = patches.level[row];
-      if (patches.exposed[row] == 0 || level >= kLevelMax - 2 || lamps[face]) continue;
+      if (patches.exposed[row] == 0 || level >= kLevelMax - 2 || is_black_lamp(surfaces, face)) continue;
       const float size = longest_edge(cell_corners(frames, face, patches.cell[row], level));
       if (size < 2 * kUnevenEdgeMin * light.reach[row] * size_factor) continue;
       if (size < find_size(settings.asked.least, face)) continue;

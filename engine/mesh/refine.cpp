@@ -58,8 +58,8 @@ std::vector<uint8_t> mark_differing(const RefineInput& input, const Surfaces& su
       if (excess[row] <= 0) continue;
       const float edge =
           longest_edge(cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]));
-      const bool is_least = elements.level[row] >= kLevelMax - 1 || edge < limits.patch_size_min[row];
       const float least = limits.patch_size_min[row];
+      const bool is_least = elements.level[row] >= kLevelMax - 1 || edge < least;
       excess[row] *= is_least ? 0 : elements.area[row] / std::max(least * least, 1e-30f);
     }
   });

@@ -13,6 +13,12 @@
 #include <string>
 
 namespace patchlight {
+
+bool reflects_light(const FaceTable& faces) {
+  return std::any_of(faces.reflectance.begin(), faces.reflectance.end(),
+                     [](const Rgb& reflectance) { return largest(reflectance) > 0; });
+}
+
 float find_reach_step(const Surfaces& surfaces, float wanted) {
   wanted = std::max(wanted, surfaces.reach_least);
   float reach = surfaces.scale;
@@ -49,9 +55,8 @@ bool is_between(Rgb value, float low, float high) {
 
 // What a face sees is as large as the scene, or smaller by powers of two: a room on a wide ground is meshed
 // as if it stood alone. In a room alone the median distance is about a quarter of the scale. A narrow gap
-// does not count: none is smaller than what half of the area sees, of all that shows light and looks into the
-// scene and not out of it. A ground or a dome that is larger than all the rest says nothing of what stands on
-// it.
+// does not count: none is smaller than what half of the area sees, of all that looks into the scene and not
+// out of it, nor at a black dome that is there for a sky.
 void find_reach(Surfaces& surfaces) {
   constexpr uint32_t kRays = 32;
   constexpr float kInside = 0.75f;
@@ -138,8 +143,13 @@ std::shared_ptr<const Surfaces> make_surfaces(FaceTable faces, Sky sky) {
                                                             std::move(tracer),
                                                             scale,
                                                             {},
+                                                            {},
                                                             0,
                                                             std::move(sky)});
+  surfaces->black.assign(surfaces->faces.size(), 0);
+  if (reflects_light(surfaces->faces))
+    for (size_t f = 0; f < surfaces->black.size(); ++f)
+      surfaces->black[f] = largest(surfaces->faces.reflectance[f]) == 0;
   find_reach(*surfaces);
   return surfaces;
 }

@@ -19,11 +19,17 @@ struct Surfaces {
   FaceLinkTable links;         // within polygons
   FaceLinkTable smooth_links;  // and across smooth edges between them
   Tracer tracer;
-  float scale = 0;           // lengths: find_scene_scale()
+  float scale = 0;  // lengths: find_scene_scale()
+  // A row a face: 1: it reflects nothing, and others do. Where all is black, as in scenes of heat, what each
+  // receives is what is asked for.
+  std::vector<uint8_t> black;
   std::vector<float> reach;  // a row a face, lengths: the same for what lies before it, at most `scale`
   float reach_least = 0;     // lengths: no narrow gap has less
   Sky sky;
 };
+
+// Does any face reflect light, in any channel?
+bool reflects_light(const FaceTable& faces);
 
 // The scale, or that over a power of two, down to what lies within `wanted` lengths; not below reach_least.
 float find_reach_step(const Surfaces& surfaces, float wanted);

@@ -43,9 +43,4 @@ std::vector<uint8_t> find_reaching(const Solution& s) {
   return reaching;
 }
 
-bool reflects_light(const FaceTable& faces) {
-  return std::any_of(faces.reflectance.begin(), faces.reflectance.end(),
-                     [](const Rgb& reflectance) { return largest(reflectance) > 0; });
-}
-
 }  // namespace patchlight

@@ -11,7 +11,4 @@ namespace patchlight {
 // polygon. Those that emit nothing count as if they did not.
 std::vector<uint8_t> find_reaching(const Solution& solution);
 
-// Does any surface reflect light, in any channel?
-bool reflects_light(const FaceTable& faces);
-
 }  // namespace patchlight

@@ -102,6 +102,7 @@ class References:
 
     def trace_rows(self, bounces):
         scene = path_tracer.make_scene(self.export, self.options.size // 2, self.options.threads)
+        self.scene = None  # Blender holds one at a time
         # Sequences of samples are good for some thousands.
         parts = max(self.options.samples // 4096, 1)
         halves = [[[path_tracer.render_row(scene, row, self.options.samples // parts, parts * half + part + 1, bounces)

@@ -19,7 +19,6 @@ uint64_t count_film_bytes(const FilmTable& film) {
          film.sky_share.size() * (2 * sizeof(float) + sizeof(Rgb));
 }
 
-// Films show corners of patches, or one value a patch.
 void make_films(PictureState& pictures, const Task& task, const Solution& solution) {
   for (const Camera& camera : task.plan.cameras) {
     const FilmSettings settings{
