@@ -138,6 +138,11 @@ struct SourceTable {
   std::vector<double>
       flux;  // sent by the exposed area under the node: W/m2 (luminance) times lengths squared
   std::vector<double> flux_before;  // a row an element and one more: flux of the elements before it
+  // A row an element: of the n of a source, the k-th: which of them holds its flux from the share k / n on.
+  std::vector<uint32_t> guide;
+  // The sources once more, as columns for loops over lanes.
+  std::vector<float> x, y, z, normal_x, normal_y, normal_z;
+  std::vector<float> share;  // of all flux
   size_t size() const { return face.size(); }
 };
 

@@ -4,6 +4,8 @@
 
 #include "engine/base/vector.h"
 
+#include <array>
+
 namespace patchlight {
 
 // Mixes 64 bits so that every input bit reaches every output bit (Steele, Lea, Flood: Fast Splittable
@@ -24,6 +26,19 @@ inline uint64_t make_ray_key(uint64_t seed, uint32_t face, uint32_t cell, uint32
 inline Vec2 make_jitter(uint64_t key, uint32_t index) {
   const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
   return {static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits >> 8 & 0xffffff) * 0x1p-24f};
+}
+
+// Three numbers in [0, 1), to 21 bits.
+inline Vec3 make_jitter3(uint64_t key, uint32_t index) {
+  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+  const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0x1fffff) * 0x1p-21f; };
+  return {part(43), part(22), part(1)};
+}
+// Four, to 16 bits.
+inline std::array<float, 4> make_jitter4(uint64_t key, uint32_t index) {
+  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+  const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0xffff) * 0x1p-16f; };
+  return {part(48), part(32), part(16), part(0)};
 }
 
 // Two unit vectors that complete a normal to a right-handed frame (Duff et al.: Building an Orthonormal

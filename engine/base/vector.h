@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ namespace patchlight {
 
 using Vec2 = glm::vec2;
 using Vec3 = glm::vec3;
+using Vec4 = glm::vec4;
 using DVec2 = glm::dvec2;
 using DVec3 = glm::dvec3;
 using Rgb = glm::vec3;    // linear red, green, blue

@@ -2,6 +2,7 @@
 #include "engine/factors/pair_rays.h"
 
 #include "engine/base/parallel.h"
+#include "engine/base/spherical.h"
 
 #include <algorithm>
 #include <cassert>
@@ -37,34 +38,6 @@ DVec3 find_point(const std::array<DVec3, 3>& c, double u, double v) {
     v *= 0.5, u -= v;
   }
   return c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
-}
-
-// The solid angle of a triangle whose corners are in these unit directions (Van Oosterom, Strackee: The Solid
-// Angle of a Plane Triangle, 1983).
-double find_solid_angle(DVec3 a, DVec3 b, DVec3 c) {
-  return 2 * std::atan2(std::abs(dot(a, cross(b, c))), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-}
-
-// The unit part of p across the unit vector a.
-DVec3 find_across(DVec3 p, DVec3 a) {
-  const DVec3 across = p - dot(p, a) * a;
-  const double size = length(across);
-  return size > 0 ? across / size : DVec3(0);
-}
-
-// A direction, even in the solid angle (Arvo, 1995).
-DVec3 find_direction(DVec3 a, DVec3 b, DVec3 c, double solid_angle, double u, double v) {
-  const DVec3 to_b = find_across(b, a), to_c = find_across(c, a);
-  const double cosine = std::clamp(dot(to_b, to_c), -1.0, 1.0), sine = std::sqrt(1 - cosine * cosine);
-  const double angle = std::acos(cosine);  // of the triangle at a
-  const double s = std::sin(u * solid_angle - angle), t = std::cos(u * solid_angle - angle);
-  const double along = t - cosine, up = s + sine * dot(a, b);
-  // The corner c moves towards a until the triangle has the wanted share.
-  const double below = (up * s + along * t) * sine;
-  const double q = below != 0 ? std::clamp(((up * t - along * s) * cosine - up) / below, -1.0, 1.0) : 1.0;
-  const DVec3 moved = q * a + std::sqrt(1 - q * q) * to_c;
-  const double z = 1 - v * (1 - dot(moved, b));
-  return z * b + std::sqrt(std::max(1 - z * z, 0.0)) * find_across(moved, b);
 }
 
 struct Target {
@@ -105,7 +78,7 @@ Target find_near_target(SampleScratch& sky, Triangles triangles, DVec3 normal_to
     return {target.point, target.weight * sum / angle};
   }
   const auto& unit = sky.directions[k];
-  const DVec3 way = find_direction(unit[0], unit[1], unit[2], angle, u, v);
+  const DVec3 way = sample_spherical_triangle(unit[0], unit[1], unit[2], angle, u, v);
   const double slope = dot(way, normal_to), cosine = dot(way, normal);
   if (!(slope < 0) || !(cosine > 0)) return kNoTarget;
   return {origin + dot(triangles[k][0] - origin, normal_to) / slope * way, cosine * sum};

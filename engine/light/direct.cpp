@@ -45,7 +45,6 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
   const PatchTable& elements = scene.mesh.elements;
   const EmitterGroups& groups = scene.groups;
   const SightTable& sights = scene.sights;
-  const FaceFrameTable& frames = scene.surfaces.frames;
   assert(out.irradiance.size() == elements.size());
   const auto count_packets = [](uint32_t ray_count) {
     return std::clamp((ray_count + kPacketSize / 2) / kPacketSize, 1u, kPacketsMax);
@@ -70,14 +69,13 @@ uint64_t find_direct(DirectColumns out, std::span<const uint32_t> rows, const Di
       if (elements.exposed[row] == 0 || first == last) continue;
       make_packets(from, 1);
       if (from.open[0] == 0) continue;
-      const auto corners = cell_corners(frames, elements.face[row], elements.cell[row], elements.level[row]);
       // What each group would give if nothing were in its way, and whether something is.
       looks.resize(last - first);
       sums.assign(last - first, {});
       doubts.assign(last - first, 0);
       double unoccluded = 0, sky = 0, all_doubts = 0;
       for (uint32_t k = 0; k < last - first; ++k) {
-        find_unoccluded(looks[k], from, corners, groups, sights.group[first + k], sights.pieces[first + k]);
+        find_unoccluded(looks[k], from, groups, sights.group[first + k], sights.pieces[first + k]);
         unoccluded += looks[k].strength;
         if (groups.is_sky_cells(sights.group[first + k])) sky += looks[k].strength;
       }

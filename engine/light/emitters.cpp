@@ -5,6 +5,7 @@
 #include "engine/light/lambert.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 namespace patchlight {
@@ -144,6 +145,21 @@ void cut_face(std::vector<PieceName>& names, const FaceFrameTable& frames, const
              lit, count_max);
 }
 
+PieceFrame make_piece_frame(const Emitter& piece, const FaceFrameTable& frames, float emission) {
+  const Vec3 origin = frames.origin[piece.face], u = frames.edge_u[piece.face], v = frames.edge_v[piece.face],
+             twist = frames.twist[piece.face];
+  const Vec2 at = piece.cell.origin;
+  const float size = piece.cell.size;
+  return {origin + at.x * u + at.y * v + at.x * at.y * twist,
+          size * (u + at.y * twist),
+          size * (v + at.x * twist),
+          size * size * twist,
+          piece.normal,
+          {1 + at.y * piece.twist.x + at.x * piece.twist.y, size * piece.twist.y, size * piece.twist.x},
+          piece.area * emission,
+          frames.triangle[piece.face] ? 1.0f : 0.0f};
+}
+
 // Halves a run of pieces across its longest axis until groups are small enough.
 void split_group(std::vector<PieceName>& names, uint32_t first, uint32_t last, std::vector<uint32_t>& ends) {
   if (last - first <= kGroupPiecesMax) {
@@ -241,8 +257,21 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
     groups.normal_x.push_back(normal.x), groups.normal_y.push_back(normal.y),
         groups.normal_z.push_back(normal.z);
     groups.diameter_squared.push_back(piece.diameter * piece.diameter);
+    groups.frames.push_back(make_piece_frame(piece, frames, luminance(emission)));
     groups.pieces.push_back(piece);
   }
+  for (uint32_t g = 0; g < groups.size(); ++g) groups.group_of.resize(groups.piece_first[g + 1], g);
+  groups.of_face.resize(names.size());
+  std::iota(groups.of_face.begin(), groups.of_face.end(), 0u);
+  std::sort(groups.of_face.begin(), groups.of_face.end(), [&](uint32_t a, uint32_t b) {
+    return names[a].face != names[b].face ? names[a].face < names[b].face : names[a].cell < names[b].cell;
+  });
+  groups.face_first.assign(faces.size() + 1, 0);
+  for (const PieceName& name : names) {
+    groups.cell.push_back(name.cell);
+    ++groups.face_first[name.face + 1];
+  }
+  std::partial_sum(groups.face_first.begin(), groups.face_first.end(), groups.face_first.begin());
   groups.beside.resize(groups.pieces.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     const uint32_t first = groups.piece_first[g], last = groups.piece_first[g + 1];
@@ -257,6 +286,15 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
   }
   add_sky(groups, sky, detail);
   return groups;
+}
+
+uint32_t find_piece(const EmitterGroups& groups, uint32_t face, uint32_t cell) {
+  if (face + 1 >= groups.face_first.size()) return kNone;
+  const auto begin = groups.of_face.begin() + groups.face_first[face],
+             end = groups.of_face.begin() + groups.face_first[face + 1];
+  const auto after = std::upper_bound(
+      begin, end, cell, [&](uint32_t code, uint32_t piece) { return code < groups.cell[piece]; });
+  return after == begin ? kNone : after[-1];
 }
 
 float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGroups& groups, size_t group,
@@ -275,6 +313,33 @@ float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGr
   float sum = 0;
   for (uint32_t k = 0; k < count; ++k) sum += out[k];
   return sum;
+}
+
+void aim_at_pieces(RayPacket& rays, std::span<float, kPacketSize> sent, const EmitterGroups& groups,
+                   std::span<const uint32_t, kPacketSize> piece, std::span<const float, kPacketSize> u,
+                   std::span<const float, kPacketSize> v) {
+  // Lanes take what they need of their pieces one by one; loops over lanes then compile to wide instructions.
+  float x[kPacketSize], y[kPacketSize], z[kPacketSize], nx[kPacketSize], ny[kPacketSize], nz[kPacketSize],
+      strength[kPacketSize];
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const PieceFrame& f = groups.frames[piece[k]];
+    // As cell_sample() has it, without a branch.
+    const float fold = 0.5f * f.triangle * std::min(u[k], v[k]), s = u[k] - fold, t = v[k] - fold;
+    x[k] = f.origin.x + s * f.edge_u.x + t * f.edge_v.x + s * t * f.twist.x;
+    y[k] = f.origin.y + s * f.edge_u.y + t * f.edge_v.y + s * t * f.twist.y;
+    z[k] = f.origin.z + s * f.edge_u.z + t * f.edge_v.z + s * t * f.twist.z;
+    nx[k] = f.normal.x, ny[k] = f.normal.y, nz[k] = f.normal.z;
+    strength[k] = f.strength * (f.jacobian.x + s * f.jacobian.y + t * f.jacobian.z);
+  }
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float ox = rays.origin_x[k], oy = rays.origin_y[k], oz = rays.origin_z[k];
+    const float off = ray_offset({ox, oy, oz}, {x[k], y[k], z[k]});
+    const float to_x = x[k] + off * nx[k] - ox, to_y = y[k] + off * ny[k] - oy,
+                to_z = z[k] + off * nz[k] - oz;
+    sent[k] = std::max(-(to_x * nx[k] + to_y * ny[k] + to_z * nz[k]), 0.0f) * strength[k];
+    rays.direction_x[k] = to_x, rays.direction_y[k] = to_y, rays.direction_z[k] = to_z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+  }
 }
 
 bool can_reach(const std::array<Vec3, 4>& patch, Vec3 normal, const Emitter& emitter) {

@@ -3,6 +3,7 @@
 
 #include "engine/light/sky_pieces.h"
 #include "engine/mesh/cell.h"
+#include "engine/trace/tracer.h"
 
 #include <span>
 #include <vector>
@@ -28,6 +29,16 @@ struct Emitter {
 
 Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
 
+// What a ray to a piece of a lamp needs, side by side: the piece's point (s, t) is origin + s edge_u + t
+// edge_v
+// + s t twist, for (s, t) of the unit square, or of the triangle below its diagonal.
+struct PieceFrame {
+  Vec3 origin, edge_u, edge_v, twist, normal;
+  Vec3 jacobian;   // times (1, s, t): the area at (s, t) over that of a flat map
+  float strength;  // area times emission, W times lengths squared over m2, luminance
+  float triangle;  // 1 or 0
+};
+
 constexpr size_t kGroupPiecesMax = 64;  // as many as fit a 64-bit mask
 
 // Emitters in groups of pieces that a receiver looks at as one: the facets of a bulb, the lamps of a ceiling,
@@ -43,6 +54,10 @@ struct EmitterGroups {
   std::vector<float> x, y, z;                       // lengths: centres
   std::vector<float> normal_x, normal_y, normal_z;  // times area and luminance over pi
   std::vector<float> diameter_squared;              // lengths squared
+  std::vector<PieceFrame> frames;
+  // The pieces of each face by their cells: CSR, face -> rows of pieces; and a row a piece: its cell, its
+  // group.
+  std::vector<uint32_t> face_first, of_face, cell, group_of;
   // A row a piece, those of the sky included: itself and those of its group next to it.
   std::vector<uint64_t> beside;
   SkyPieces sky;
@@ -57,6 +72,9 @@ struct EmitterGroups {
   uint32_t piece_count(size_t group) const { return piece_first[group + 1] - piece_first[group]; }
   uint64_t all_pieces(size_t group) const { return ~uint64_t{0} >> (kGroupPiecesMax - piece_count(group)); }
 };
+// The piece of a lamp's face that holds a cell of level kLevelMax; kNone: there is none.
+uint32_t find_piece(const EmitterGroups& groups, uint32_t face, uint32_t cell);
+
 // All faces that emit. Those that look wide from the surfaces that reflect are cut into cells.
 EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& frames, const Sky& sky = {},
                                   SkyDetail detail = SkyDetail::kCoarse);
@@ -65,6 +83,13 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
 // (W/m2, luminance): written to strength[0 .. piece_count). Returns the sum.
 float find_strengths(std::span<float, kGroupPiecesMax> strength, const EmitterGroups& groups, size_t group,
                      Vec3 point, Vec3 normal);
+
+// Turns rays from where they start to points of the pieces `piece`, one a ray, and ends them just before
+// these. u, v: samples of the unit square, uniform. sent: what a point of the piece sends along the ray, over
+// the density of the sample: cosine, times length of the way, times strength; 0 from behind.
+void aim_at_pieces(RayPacket& rays, std::span<float, kPacketSize> sent, const EmitterGroups& groups,
+                   std::span<const uint32_t, kPacketSize> piece, std::span<const float, kPacketSize> u,
+                   std::span<const float, kPacketSize> v);
 
 // The unoccluded form factor from a point to the emitter.
 float find_point_factor(Vec3 point, Vec3 normal, const Emitter& emitter);

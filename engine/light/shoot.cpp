@@ -52,7 +52,6 @@ void finish_dim(std::span<Rgb> irradiance, DimPacket& dim, Rgb sent, const Trace
 
 ShotCounts shoot(std::span<Rgb> irradiance, const Shot& shot, const PatchTable& elements,
                  const Surfaces& surfaces, ShotRays rays) {
-  const FaceTable& faces = surfaces.faces;
   const Emitter& shooter = shot.shooter;
   const Rgb sent = shot.sent;
   const uint32_t packet_count = std::clamp(rays.mixed / kPacketSize, 1u, kPacketsMax);
@@ -64,18 +63,15 @@ ShotCounts shoot(std::span<Rgb> irradiance, const Shot& shot, const PatchTable& 
     uint64_t counted = 0, cast = 0;
     for (auto row = static_cast<uint32_t>(begin); row < end; ++row) {
       irradiance[row] = Rgb(0);
-      const uint32_t face = elements.face[row];
       if (elements.exposed[row] == 0) continue;
-      const Vec3 normal = faces.normal[face];
-      const auto corners = cell_corners(surfaces.frames, face, elements.cell[row], elements.level[row]);
-      if (!can_reach(corners, normal, shooter)) continue;
-      const bool partly_buried = elements.exposed[row] < 1;
       start_element(from, row, shot.seed, shot_key);
+      if (!can_reach(from.corners, from.normal, shooter)) continue;
+      const bool partly_buried = elements.exposed[row] < 1;
       if (partly_buried) {
         make_packets(from, 1);
         if (from.open[0] == 0) continue;
       }
-      const float factor = find_mean_factor(from, corners, shooter, partly_buried ? from.open[0] : 0xffff);
+      const float factor = find_mean_factor(from, shooter, partly_buried ? from.open[0] : 0xffff);
       if (factor == 0) continue;
       ++counted;
       if (!partly_buried && factor * largest(sent) < rays.bright) {

@@ -195,4 +195,15 @@ SkySample sample_sky(const SkyPieces& pieces, const Sky& sky, uint32_t row, Vec2
   return {p, std::abs(dot(cross(b - a, c - a), a)) / (squared * std::sqrt(squared))};
 }
 
+void aim_at_sky(RayPacket& rays, std::span<float, kPacketSize> sent, const SkyPieces& pieces, const Sky& sky,
+                std::span<const uint32_t, kPacketSize> piece, std::span<const float, kPacketSize> u,
+                std::span<const float, kPacketSize> v) {
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const auto [way, weight] = sample_sky(pieces, sky, piece[k], {u[k], v[k]});
+    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
+    rays.near_distance[k] = 0, rays.far_distance[k] = std::numeric_limits<float>::infinity();
+    sent[k] = weight * luminance(pieces.emission[piece[k]]) / length(way);
+  }
+}
+
 }  // namespace patchlight

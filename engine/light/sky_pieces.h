@@ -5,7 +5,9 @@
 #pragma once
 
 #include "engine/sky.h"
+#include "engine/trace/tracer.h"
 
+#include <span>
 #include <vector>
 
 namespace patchlight {
@@ -50,5 +52,11 @@ struct SkySample {
 };
 // `sample`: of the unit square.
 SkySample sample_sky(const SkyPieces& pieces, const Sky& sky, uint32_t row, Vec2 sample);
+// Turns rays to the pieces `piece` and on for ever. u, v: samples of the unit square, uniform. sent: what
+// comes from there over the density of the sample, over the length of the direction (W/m2, luminance): times
+// the dot product with a normal it is what a plane gets.
+void aim_at_sky(RayPacket& rays, std::span<float, kPacketSize> sent, const SkyPieces& pieces, const Sky& sky,
+                std::span<const uint32_t, kPacketSize> piece, std::span<const float, kPacketSize> u,
+                std::span<const float, kPacketSize> v);
 
 }  // namespace patchlight

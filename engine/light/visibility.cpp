@@ -1,6 +1,7 @@
 // Pairs of points of an element and an emitter; Lambert's formula averaged over an element.
 #include "engine/light/visibility.h"
 
+#include "engine/base/spherical.h"
 #include "engine/mesh/buried.h"
 #include "engine/mesh/cell_rays.h"
 
@@ -15,6 +16,10 @@ namespace {
 // An element nearer to an emitter than this many of its edges takes its mean factor by Gauss's rule, not at
 // its centre.
 constexpr float kNearEmitter = 40;
+// A piece nearer than so many of its diameters is near for its size.
+constexpr float kNearPiece = 1.5f;
+// Below so many steradians the spherical formula loses digits, and has nothing to gain.
+constexpr double kSmallAngle = 1e-3;
 // A piece of a group that looks wider than this takes more than its centre.
 constexpr float kWidePiece = 0.1f;
 
@@ -56,15 +61,15 @@ void cast_pairs(VisibilitySums& sums, const ElementPoints& from, uint32_t packet
   const uint32_t active = find_positive(kernel) & from.open[packet];
   ++sums.packets;
   if (!active) return;
-  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active);
+  const uint32_t blocked = find_blocked(from.surfaces.tracer, rays, active, RayOrder::kIncoherent);
+  const uint32_t seen = active & ~blocked;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    if (!(active >> k & 1u)) continue;
     const uint32_t half = find_half(k);
-    sums.all[half] += kernel[k];
-    if (!(blocked >> k & 1u)) sums.seen[half] += kernel[k];
+    sums.all[half] += active >> k & 1u ? kernel[k] : 0;
+    sums.seen[half] += seen >> k & 1u ? kernel[k] : 0;
   }
   sums.rays += static_cast<uint32_t>(std::popcount(active));
-  sums.reached += static_cast<uint32_t>(std::popcount(active & ~blocked));
+  sums.reached += static_cast<uint32_t>(std::popcount(seen));
 }
 
 // Adds one packet of pairs: the element's points against points of the emitter.
@@ -72,7 +77,7 @@ void add_visibility(VisibilitySums& sums, const ElementPoints& from, uint32_t pa
                     const Emitter& emitter) {
   const Points& points = from.points[packet];
   const FaceFrameTable& frames = from.surfaces.frames;
-  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
+  const Vec3 normal = from.normal;
   const bool triangle = frames.triangle[emitter.face];
   // Strata of the emitter are those of the element with the axes swapped and shuffled: each axis of the one
   // meets each axis of the other evenly.
@@ -123,12 +128,16 @@ void make_points(Points& points, const ElementPoints& from, uint32_t packet) {
   make_face_points(points, frames, face, ray_offset(face_point(frames, face, {u[0], v[0]})) * normal, u, v);
 }
 
-// Which of the points lie inside a solid: a bit a point.
-uint32_t find_buried_points(const Points& points, Vec3 normal, const Surfaces& surfaces) {
-  RayPacket rays;
+void start_at(RayPacket& rays, const Points& points) {
   std::copy_n(points.x, kPacketSize, rays.origin_x);
   std::copy_n(points.y, kPacketSize, rays.origin_y);
   std::copy_n(points.z, kPacketSize, rays.origin_z);
+}
+
+// Which of the points lie inside a solid: a bit a point.
+uint32_t find_buried_points(const Points& points, Vec3 normal, const Surfaces& surfaces) {
+  RayPacket rays;
+  start_at(rays, points);
   return find_buried(surfaces, make_frame(normal), rays, 0xffff);
 }
 
@@ -137,6 +146,10 @@ uint32_t find_buried_points(const Points& points, Vec3 normal, const Surfaces& s
 void start_element(ElementPoints& from, uint32_t row, uint64_t seed, uint64_t salt) {
   const auto [face, cell, level] = name_cell(from.elements, row);
   from.row = row;
+  from.corners = cell_corners(from.surfaces.frames, face, cell, level);
+  from.centre = cell_centre(from.surfaces.frames, face, cell, level);
+  from.normal = from.surfaces.faces.normal[face];
+  from.edge = longest_edge(from.corners);
   from.key = make_ray_key(seed, face, cell, level, kDirectRays) ^ salt;
   from.made = 0;
 }
@@ -147,16 +160,14 @@ void make_packets(ElementPoints& from, uint32_t count) {
     make_points(points, from, from.made);
     from.open[from.made] = 0xffff;
     if (from.elements.exposed[from.row] < 1)
-      from.open[from.made] &= ~find_buried_points(
-          points, from.surfaces.faces.normal[from.elements.face[from.row]], from.surfaces);
+      from.open[from.made] &= ~find_buried_points(points, from.normal, from.surfaces);
   }
 }
 
-float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& corners, const Emitter& emitter,
-                       uint32_t usable) {
+float find_mean_factor(const ElementPoints& from, const Emitter& emitter, uint32_t usable) {
   const FaceFrameTable& frames = from.surfaces.frames;
-  const auto [face, code, own_level] = name_cell(from.elements, from.row);
-  const Vec3 normal = from.surfaces.faces.normal[face];
+  const Vec3 normal = from.normal;
+  const float edge = from.edge;
   if (usable != 0xffff) {
     const Points& points = from.points[0];
     float sum = 0;
@@ -165,13 +176,11 @@ float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& cor
         sum += find_point_factor({points.x[k], points.y[k], points.z[k]}, normal, emitter);
     return sum / static_cast<float>(std::popcount(usable));
   }
-  const Vec3 centre = cell_centre(frames, face, code, own_level);
-  const float edge = longest_edge(corners);
   // At least; the nearest point itself takes longer to find.
-  if (distance(centre, emitter.centre) - emitter.diameter > kNearEmitter * edge)
-    return find_point_factor(centre, normal, emitter);
-  const float gap = find_gap(centre, emitter, frames);
-  if (gap > kNearEmitter * edge) return find_point_factor(centre, normal, emitter);
+  float gap = distance(from.centre, emitter.centre) - emitter.diameter;
+  if (gap > kNearEmitter * edge) return find_point_factor(from.centre, normal, emitter);
+  const auto [face, code, own_level] = name_cell(from.elements, from.row);
+  if (gap <= 3 * edge) gap = find_gap(from.centre, emitter, frames);
   // Very near, where the factor changes much over the element, parts of it each take the rule.
   const uint32_t parts_level = gap > 3 * edge ? 0 : gap > edge ? 1 : gap > 0.3f * edge ? 2 : 3;
   const uint32_t level = std::min(own_level + parts_level, kLevelMax);
@@ -217,8 +226,7 @@ void add_piece(GroupLook& look, uint32_t piece, Rgb irradiance, float strength) 
 void find_unoccluded_sky(GroupLook& look, ElementPoints& from, const EmitterGroups& groups, uint32_t group,
                          uint64_t pieces) {
   const uint32_t first = groups.sky_first(group);
-  find_sky_irradiance(from.sky, groups.sky, from.surfaces.sky,
-                      from.surfaces.faces.normal[from.elements.face[from.row]], first,
+  find_sky_irradiance(from.sky, groups.sky, from.surfaces.sky, from.normal, first,
                       first + groups.piece_count(group));
   look.irradiance = Rgb(0), look.strength = 0, look.count = 0;
   for (uint64_t rest = pieces; rest != 0; rest &= rest - 1) {
@@ -230,13 +238,12 @@ void find_unoccluded_sky(GroupLook& look, ElementPoints& from, const EmitterGrou
 
 }  // namespace
 
-void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3, 4>& corners,
-                     const EmitterGroups& groups, uint32_t group, uint64_t pieces) {
+void find_unoccluded(GroupLook& look, ElementPoints& from, const EmitterGroups& groups, uint32_t group,
+                     uint64_t pieces) {
   if (groups.is_sky(group)) return find_unoccluded_sky(look, from, groups, group, pieces);
-  const FaceFrameTable& frames = from.surfaces.frames;
-  const auto [face, code, level] = name_cell(from.elements, from.row);
-  const Vec3 centre = cell_centre(frames, face, code, level), normal = from.surfaces.faces.normal[face];
-  const float edge = longest_edge(corners), far = kNearEmitter * edge, far_squared = far * far;
+  const Vec3 centre = from.centre, normal = from.normal;
+  const uint32_t face = from.elements.face[from.row];
+  const float far = kNearEmitter * from.edge, far_squared = far * far;
   const uint32_t first = groups.piece_first[group], usable = from.open[0];
   std::array<float, kGroupPiecesMax> strength;
   find_strengths(strength, groups, group, centre, normal);
@@ -252,8 +259,9 @@ void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3
     // The centre tells a piece that is small and far from an element that is small.
     if (usable != 0xffff || wide > kWidePiece * kWidePiece * squared || squared < 4 * far_squared) {
       if (emitter.face == face) continue;
-      if (!can_reach(corners, normal, emitter)) continue;
-      value = find_mean_factor(from, corners, emitter, usable) * luminance(emission);
+      // Where the centres do not see each other, other points may.
+      if (value <= 0 && !can_reach(from.corners, normal, emitter)) continue;
+      value = find_mean_factor(from, emitter, usable) * luminance(emission);
     }
     if (value <= 0) continue;
     add_piece(look, k, value / luminance(emission) * emission, value);
@@ -266,82 +274,131 @@ uint64_t make_group_key(const ElementPoints& from, uint32_t group) {
   return mix_bits(from.key ^ (uint64_t{group} + 1) * 0x9e3779b97f4a7c15ull);
 }
 
-struct PickedPiece {
-  uint32_t entry;  // of the look
-  float width;     // its strength
-  Vec2 sample;     // for a place on it
+// A packet's places on pieces of a group.
+struct PickedPieces {
+  std::array<uint32_t, kPacketSize> piece;  // of the group
+  std::array<float, kPacketSize> strength;  // what it was picked by
+  std::array<float, kPacketSize> u, v;      // samples of the unit square
 };
 // Quarters of all strength go with rows of the element's points, quarters of those with columns.
-PickedPiece pick_piece(const ElementPoints& from, uint32_t packet, uint32_t k, const GroupLook& look,
-                       uint64_t key) {
+void pick_pieces(PickedPieces& picked, const ElementPoints& from, uint32_t packet, const GroupLook& look,
+                 uint64_t key) {
   const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
-  const uint32_t stratum = 4 * ((k / 4) ^ (shuffle & 3)) + ((k % 4) ^ (shuffle >> 2 & 3));
-  const Vec2 inside = make_jitter(key, 2 * (packet * kPacketSize + k));
-  const Vec2 more = make_jitter(key, 2 * (packet * kPacketSize + k) + 1);
-  const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (k % 8)) & 15);
-  const float at = (static_cast<float>(stratum) + from.strata.place(part, inside.x)) / 16 * look.strength;
-  const auto* until = look.strength_until.data();
-  const uint32_t n = std::min(static_cast<uint32_t>(std::upper_bound(until, until + look.count, at) - until),
-                              look.count - 1);
-  return {n, until[n] - (n ? until[n - 1] : 0), more};
+  const uint32_t shift_column = shuffle & 3, shift_row = shuffle >> 2 & 3;
+  std::array<float, kPacketSize> at;
+  std::array<uint32_t, kPacketSize> entry{};
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const Vec3 inside = make_jitter3(key, packet * kPacketSize + k);
+    const uint32_t stratum = 4 * ((k / 4) ^ shift_column) + ((k % 4) ^ shift_row);
+    const uint32_t part = packet ^ static_cast<uint32_t>(key >> (4 * (k % 8)) & 15);
+    at[k] = (static_cast<float>(stratum) + from.strata.place[part] + from.strata.place_size * inside.x) *
+            (look.strength / 16);
+    picked.u[k] = inside.y, picked.v[k] = inside.z;
+  }
+  for (uint32_t n = 0; n + 1 < look.count; ++n) {
+    const float until = look.strength_until[n];
+    for (uint32_t k = 0; k < kPacketSize; ++k) entry[k] += at[k] >= until ? 1 : 0;
+  }
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const uint32_t n = entry[k];
+    picked.piece[k] = look.piece[n];
+    picked.strength[k] = look.strength_until[n] - (n ? look.strength_until[n - 1] : 0);
+  }
 }
 
 // Adds one packet of rays from the element's points to cells of the sky, or to the sun, and on for ever.
 void add_sky_packet(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
                     const EmitterGroups& groups, uint32_t group) {
-  const Points& points = from.points[packet];
-  const Sky& sky = from.surfaces.sky;
-  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
+  const Vec3 normal = from.normal;
   const uint64_t key = make_group_key(from, group);
   const uint32_t first = groups.sky_first(group);
-  const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
-  RayPacket rays;
-  float kernel[kPacketSize];
-  for (uint32_t k = 0; k < kPacketSize; ++k) {
-    auto [n, width, sample] = pick_piece(from, packet, k, look, key);
-    const uint32_t row = first + look.piece[n];
-    // The disc of the sun is one piece: its strata are those of the element, shuffled.
-    if (groups.sky.is_sun(row))
-      sample = stratified_sample(key, packet, from.strata, (k / 4) ^ (shuffle & 3),
-                                 (k % 4) ^ (shuffle >> 2 & 3), k);
-    const auto [way, weight] = sample_sky(groups.sky, sky, row, sample);
-    // Over the density, as for lamps; the emission of a piece counts as even.
-    kernel[k] =
-        std::max(dot(way, normal), 0.0f) / length(way) * weight * luminance(groups.sky.emission[row]) / width;
-    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
-    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
-    rays.near_distance[k] = 0, rays.far_distance[k] = std::numeric_limits<float>::infinity();
+  PickedPieces picked;
+  pick_pieces(picked, from, packet, look, key);
+  // The disc of the sun is one piece: its strata are those of the element, shuffled.
+  if (groups.is_sun(group)) {
+    const auto shuffle = static_cast<uint32_t>(key >> 4 * (packet % 15));
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      const Vec2 sample = stratified_sample(key, packet, from.strata, (k / 4) ^ (shuffle & 3),
+                                            (k % 4) ^ (shuffle >> 2 & 3), k);
+      picked.u[k] = sample.x, picked.v[k] = sample.y;
+    }
   }
+  for (uint32_t& piece : picked.piece) piece += first;
+  RayPacket rays;
+  float sent[kPacketSize], kernel[kPacketSize];
+  start_at(rays, from.points[packet]);
+  aim_at_sky(rays, sent, groups.sky, from.surfaces.sky, picked.piece, picked.u, picked.v);
+  // Over the density, as for lamps; the emission of a piece counts as even.
+  for (uint32_t k = 0; k < kPacketSize; ++k)
+    kernel[k] = std::max(rays.direction_x[k] * normal.x + rays.direction_y[k] * normal.y +
+                             rays.direction_z[k] * normal.z,
+                         0.0f) *
+                sent[k] / picked.strength[k];
   cast_pairs(sums, from, packet, rays, kernel);
+}
+
+bool is_near(const Emitter& piece, Vec3 point) {
+  const Vec3 way = piece.centre - point;
+  return dot(way, way) < kNearPiece * kNearPiece * piece.diameter * piece.diameter;
+}
+
+// Turns ray k to a piece that is near for its size: even in the solid angle that the piece has there, for
+// over its area what it sends varies without bound, and few rays would find the nearest of it.
+void aim_at_near_piece(RayPacket& rays, float& sent, uint32_t k, const Emitter& piece, float emission,
+                       double u, double v) {
+  const DVec3 origin(rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]), normal(piece.normal);
+  std::array<DVec3, 4> unit;
+  for (size_t c = 0; c < piece.corner_count; ++c) {
+    unit[c] = DVec3(piece.corners[c]) - origin;
+    const double size = length(unit[c]);
+    if (!(size > 0)) return;  // stays as it is
+    unit[c] /= size;
+  }
+  const double first = find_solid_angle(unit[0], unit[1], unit[2]);
+  const double second = piece.corner_count == 4 ? find_solid_angle(unit[0], unit[2], unit[3]) : 0,
+               all = first + second;
+  if (!(all > kSmallAngle)) return;
+  const bool in_first = u * all < first;
+  const double rest = in_first ? u * all / first : (u * all - first) / second;
+  const DVec3 way = in_first ? sample_spherical_triangle(unit[0], unit[1], unit[2], first, rest, v)
+                             : sample_spherical_triangle(unit[0], unit[2], unit[3], second, rest, v);
+  const double slope = dot(way, normal);
+  if (!(slope < 0)) {
+    sent = 0;
+    return;
+  }
+  const Vec3 target(origin + dot(DVec3(piece.corners[0]) - origin, normal) / slope * way);
+  const Vec3 start(origin);
+  const Vec3 to = target + ray_offset(start, target) * piece.normal - start;
+  const float squared = dot(to, to);
+  rays.direction_x[k] = to.x, rays.direction_y[k] = to.y, rays.direction_z[k] = to.z;
+  // What the kernel of areas divides by is taken back.
+  sent = static_cast<float>(all) * emission * squared * std::sqrt(squared);
 }
 
 // Adds one packet of pairs of the element's points and points of the group's pieces.
 void add_lamp_packet(VisibilitySums& sums, const ElementPoints& from, uint32_t packet, const GroupLook& look,
                      const EmitterGroups& groups, uint32_t group) {
-  const Points& points = from.points[packet];
-  const FaceFrameTable& frames = from.surfaces.frames;
-  const Vec3 normal = from.surfaces.faces.normal[from.elements.face[from.row]];
-  const uint64_t key = make_group_key(from, group);
+  const Vec3 normal = from.normal;
+  PickedPieces picked;
+  pick_pieces(picked, from, packet, look, make_group_key(from, group));
+  for (uint32_t& piece : picked.piece) piece += groups.piece_first[group];
   RayPacket rays;
-  float kernel[kPacketSize];
+  float sent[kPacketSize], kernel[kPacketSize];
+  start_at(rays, from.points[packet]);
+  aim_at_pieces(rays, sent, groups, picked.piece, picked.u, picked.v);
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const auto [n, width, more] = pick_piece(from, packet, k, look, key);
-    const uint32_t piece = groups.piece_first[group] + look.piece[n];
-    const Emitter& emitter = groups.pieces[piece];
-    const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, {more.x, more.y});
-    Vec3 target = face_point(frames, emitter.face, uv);
-    target += ray_offset({points.x[k], points.y[k], points.z[k]}, target) * emitter.normal;
-    const float x = target.x - points.x[k], y = target.y - points.y[k], z = target.z - points.z[k];
+    const Emitter& piece = groups.pieces[picked.piece[k]];
+    if (is_near(piece, {rays.origin_x[k], rays.origin_y[k], rays.origin_z[k]}))
+      aim_at_near_piece(rays, sent[k], k, piece, luminance(groups.emission[picked.piece[k]]), picked.u[k],
+                        picked.v[k]);
+  }
+  // Over the density: what the piece was picked by, spread over its area.
+  for (uint32_t k = 0; k < kPacketSize; ++k) {
+    const float x = rays.direction_x[k], y = rays.direction_y[k], z = rays.direction_z[k];
     const float squared = x * x + y * y + z * z;
-    const float jacobian = 1 + uv.y * emitter.twist.x + uv.x * emitter.twist.y;
     const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
-    const float sent = std::max(-(x * emitter.normal.x + y * emitter.normal.y + z * emitter.normal.z), 0.0f);
-    // Over the density: what the piece was chosen by, spread over its area.
-    kernel[k] = cosine * sent * jacobian / std::max(squared * squared, 1e-30f) * emitter.area *
-                luminance(groups.emission[piece]) / width;
-    rays.origin_x[k] = points.x[k], rays.origin_y[k] = points.y[k], rays.origin_z[k] = points.z[k];
-    rays.direction_x[k] = x, rays.direction_y[k] = y, rays.direction_z[k] = z;
-    rays.near_distance[k] = 0, rays.far_distance[k] = 1;
+    kernel[k] = cosine * sent[k] / (std::max(squared * squared, 1e-30f) * picked.strength[k]);
   }
   cast_pairs(sums, from, packet, rays, kernel);
 }

@@ -11,7 +11,7 @@
 
 namespace patchlight {
 
-constexpr uint32_t kPacketsMax = 16;  // of pairs for an element and an emitter
+constexpr uint32_t kPacketsMax = 64;  // of pairs for an element and an emitter
 
 // Sixteen points just off an element: a stratum of 4 x 4 each. A packet's samples keep to one of 2 x 2 parts
 // of their strata, later packets to finer parts, so that the union of 4 or 16 packets is stratified 8 x 8 or
@@ -22,21 +22,19 @@ struct Points {
 
 // Which part of a stratum the samples of a packet keep to, by the packet's number.
 struct Strata {
-  std::array<Vec2, kPacketsMax> base;
-  float size = 1;
-  // A place in a part of a stratum in one dimension, 0..1.
-  float place(uint32_t part, float inside) const {
-    // Both digits of the part count here: there are `packets` parts.
-    return (static_cast<float>(part % packet_count) + inside) / static_cast<float>(packet_count);
-  }
-  uint32_t packet_count = 1;
-  explicit Strata(uint32_t packets) : base{}, packet_count(packets) {
+  std::array<Vec2, kPacketsMax> base;    // of two dimensions: a part's corner ...
+  float size = 1;                        // ... and its width
+  std::array<float, kPacketsMax> place;  // the same of one dimension, where all digits of a part count
+  float place_size = 1;
+  explicit Strata(uint32_t packets) : base{} {
     // From the last digit of the packet to the first: each halves what the ones before it left.
     for (uint32_t parts = packets, shift = 0; parts >= 4; parts /= 4, shift += 2) {
       size *= 0.5f;
       for (uint32_t k = 0; k < kPacketsMax; ++k)
         base[k] += size * Vec2(static_cast<float>(k >> shift & 1u), static_cast<float>(k >> shift >> 1 & 1u));
     }
+    place_size = 1 / static_cast<float>(packets);
+    for (uint32_t k = 0; k < kPacketsMax; ++k) place[k] = place_size * static_cast<float>(k % packets);
   }
 };
 
@@ -47,6 +45,9 @@ struct ElementPoints {
   const PatchTable& elements;
   Strata strata;
   uint32_t row = 0;
+  std::array<Vec3, 4> corners;
+  Vec3 centre, normal;
+  float edge = 0;     // the longest
   uint64_t key = 0;   // of the element's samples
   uint32_t made = 0;  // packets
   std::array<Points, kPacketsMax> points;
@@ -61,9 +62,8 @@ void start_element(ElementPoints& from, uint32_t row, uint64_t seed, uint64_t sa
 void make_packets(ElementPoints& from, uint32_t count);
 
 // The element's mean unoccluded factor: at its centre, by Gauss's rule if the emitter is near, at the points
-// `usable` of its first packet if it is partly buried. corners: of the element.
-float find_mean_factor(const ElementPoints& from, const std::array<Vec3, 4>& corners, const Emitter& emitter,
-                       uint32_t usable);
+// `usable` of its first packet if it is partly buried.
+float find_mean_factor(const ElementPoints& from, const Emitter& emitter, uint32_t usable);
 
 struct VisibilitySums {
   std::array<float, 2> all = {0, 0}, seen = {0, 0};  // of the kernel, over two halves of the pairs
@@ -93,8 +93,8 @@ struct GroupLook {
   std::array<uint8_t, kGroupPiecesMax> piece;
   std::array<float, kGroupPiecesMax> strength_until;  // summed up to each of them
 };
-void find_unoccluded(GroupLook& look, ElementPoints& from, const std::array<Vec3, 4>& corners,
-                     const EmitterGroups& groups, uint32_t group, uint64_t pieces);
+void find_unoccluded(GroupLook& look, ElementPoints& from, const EmitterGroups& groups, uint32_t group,
+                     uint64_t pieces);
 
 // Adds the packets [first, last) of pairs of an element and a group; rays go to its pieces by what they
 // bring. Makes the packets of points that it lacks.

@@ -15,9 +15,13 @@
 namespace patchlight {
 namespace {
 
-constexpr float kVisibleNoise = 0.005f;  // share of an element's radiosity
-constexpr size_t kOwnRowsMax = 60'000;   // patches: beyond, small faces share rows
-constexpr float kLargeElement = 6;       // least sizes
+constexpr float kVisibleNoise = 0.01f;  // share of an element's radiosity
+// Rays of all elements with shadow edges, at least, as long as each has no more than so many times the usual
+// ones.
+constexpr size_t kFewEdgesRays = 500'000;
+constexpr uint32_t kFewEdgesMost = 8;
+constexpr size_t kOwnRowsMax = 60'000;  // patches: beyond, small faces share rows
+constexpr float kLargeElement = 6;      // least sizes
 // The coarse solution ends when a pass adds less than this share of what it has.
 constexpr double kCoarseUntil = 0.005;
 constexpr uint32_t kCoarsePassesMax = 64;
@@ -83,6 +87,16 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays
                   s.settings.seed);
 }
 
+// Emission of which one ray of a row brings as much as the mean element receives.
+float find_unaimed_most(const Solution& s) {
+  double power = 0, area = 0;
+  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
+    const double exposed = double{s.mesh.elements.area[row]} * s.mesh.elements.exposed[row];
+    area += exposed, power += exposed * luminance(s.light.direct[row]);
+  }
+  return area > 0 ? static_cast<float>(power / area) * static_cast<float>(s.transport.hits.ray_count) : 0;
+}
+
 PatchSettings make_patch_settings(const Solution& s, const AskedSizes& asked) {
   return {count_transport_patches(s.surfaces->faces, s.settings), find_size_factor(s.settings),
           s.settings.seed, s.settings.threshold_indirect, asked};
@@ -110,7 +124,7 @@ void find_coarse(Solution& s, const Rows& rows) {
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
   std::vector<Rgb> emitted(count), sent(count), next(count);
-  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
+  gather_emission(emitted, {}, rows, get_row_emission(s));
   s.light.coarse = emitted;
   for (size_t p = 0; p < count; ++p)
     sent[p] = s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + emitted[p]);
@@ -265,7 +279,7 @@ bool split_patches(Solution& s, const AskedSizes& sizes) {
   s.log.trace_seconds += watch.lap();
   const Rows rows = get_rows(s);
   std::vector<Rgb> emitted(s.mesh.patches.size());
-  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
+  gather_emission(emitted, {}, rows, get_row_emission(s));
   step_coarse(s, rows, find_patch_means(s, s.light.direct), emitted);
   s.log.solve_seconds += watch.lap();
   return true;
@@ -355,6 +369,7 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   s.mesh.reasons.assign(count, SplitReason::kStart);
   s.mesh.fresh = all_rows(count);
   find_direct_of(s, s.mesh.fresh, kStartRays);
+  s.transport.unaimed_most = find_unaimed_most(s);
   s.log.trace_seconds += watch.lap();
   find_coarse(s, get_rows(s));
   s.log.solve_seconds += watch.lap();
@@ -406,7 +421,12 @@ void freeze(Solution& s) {
   assert(!s.mesh.frozen);
   const WorkersScope scope(s.workers);
   Stopwatch watch;
-  find_direct_of(s, find_shadow_edges(s), final_rays(s.settings));
+  const std::vector<uint32_t> shadow_edges = find_shadow_edges(s);
+  DirectRays rays = final_rays(s.settings);
+  // Where edges are few more rays cost nothing, and little averages out.
+  rays.mixed = std::clamp(static_cast<uint32_t>(kFewEdgesRays / std::max(shadow_edges.size(), size_t{1})),
+                          rays.mixed, kFewEdgesMost * rays.mixed);
+  find_direct_of(s, shadow_edges, rays);
   smooth_direct(s);
   s.log.trace_seconds += watch.lap();
   s.mesh.fresh = {};

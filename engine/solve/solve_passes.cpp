@@ -20,6 +20,8 @@ constexpr uint32_t kSourceCount = 400;
 constexpr uint32_t kBounceStrengths = 7;
 // Of the error asked for, what noise of bounced light may take.
 constexpr double kRowsOfError = 0.5, kLaterOfError = 0.15;
+// And what noise of a late bounce may take unsmoothed.
+constexpr double kQuietOfError = 0.02;
 // Where there is less than this share of the scene's mean light, errors are shares of that.
 constexpr double kDark = 0.1;
 // Where more rays are asked for, so many times as many as a row has; so often at most; over all receivers not
@@ -156,7 +158,7 @@ SmoothBounce gather_aimed(const Solution& s, uint64_t& ray_count) {
 // The first pass: emission that rows meet.
 SmoothBounce gather_first(const Solution& s) {
   std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
-  gather_emission(received, noise, get_rows(s), s.transport.emission_by_rows);
+  gather_emission(received, noise, get_rows(s), get_row_emission(s));
   return smooth_bounce(s, received, noise);
 }
 
@@ -165,8 +167,14 @@ SmoothBounce gather_first(const Solution& s) {
 SmoothBounce gather_later(const Solution& s, uint64_t& ray_count) {
   std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
   gather_patches(received, noise, get_rows(s), s.mesh.patches.unshot);
-  SmoothBounce bounce = smooth_bounce(s, received, noise);
   const ErrorWeights weights = find_error_weights(s);
+  // Late bounces are so dim that their noise needs no smoothing.
+  std::vector<float> rough(noise.size());
+  for (size_t p = 0; p < rough.size(); ++p) rough[p] = std::abs(mean_channel(noise[p]));
+  double rough_error = 0;
+  for (const double power : find_error_power(s, weights, rough)) rough_error += power;
+  if (rough_error <= kQuietOfError * s.settings.error * weights.all) return {received, rough};
+  SmoothBounce bounce = smooth_bounce(s, received, noise);
   double error = 0;
   for (const double power : find_error_power(s, weights, bounce.error)) error += power;
   if (error <= kLaterOfError * s.settings.error * weights.all) return bounce;

@@ -31,25 +31,34 @@ struct AimShares {
   bool any = false;
 };
 
+// Shares of any sum to shares of 1.
+void scale_shares(AimShares& shares) {
+  float sum = 0;
+  for (size_t s = 0; s < shares.share.size(); ++s) shares.cumulative[s] = sum += shares.share[s];
+  shares.any = sum > 0;
+  if (!shares.any) return;
+  const float scale = 1 / sum;
+  for (float& share : shares.share) share *= scale;
+  for (float& cumulative : shares.cumulative) cumulative *= scale;
+  shares.cumulative.back() = 1;
+}
+
 void find_shares(AimShares& shares, const SourceTable& sources, Vec3 point, Vec3 normal) {
   const size_t count = sources.size();
   shares.share.resize(count);
   shares.cumulative.resize(count);
-  const double all = sources.flux_before.empty() ? 1 : sources.flux_before.back();
+  float* share = shares.share.data();
   for (size_t s = 0; s < count; ++s) {
-    const Vec3 way = sources.centre[s] - point;
-    const float squared = dot(way, way);
-    const float cosines = std::max(dot(way, normal), 0.0f) * std::max(-dot(way, sources.normal[s]), 0.0f);
+    const float x = sources.x[s] - point.x, y = sources.y[s] - point.y, z = sources.z[s] - point.z;
+    const float squared = x * x + y * y + z * z;
+    const float cosine = std::max(x * normal.x + y * normal.y + z * normal.z, 0.0f);
+    const float sent =
+        std::max(-(x * sources.normal_x[s] + y * sources.normal_y[s] + z * sources.normal_z[s]), 0.0f);
     // A source that is near is wide in the sky: its strength is bounded by its own size.
     const float bounded = std::max(squared, sources.area[s]);
-    shares.share[s] = static_cast<float>(sources.flux[s] / all) * cosines / (bounded * bounded);
+    share[s] = sources.share[s] * cosine * sent / (bounded * bounded);
   }
-  float sum = 0;
-  for (size_t s = 0; s < count; ++s) shares.cumulative[s] = sum += shares.share[s];
-  shares.any = sum > 0;
-  if (!shares.any) return;
-  for (size_t s = 0; s < count; ++s) shares.share[s] /= sum, shares.cumulative[s] /= sum;
-  shares.cumulative.back() = 1;
+  scale_shares(shares);
 }
 
 // Power heuristic: the weight of a sample drawn with density `own` against the other way to draw it, as if
@@ -174,15 +183,17 @@ SourcePoint pick_source_point(const SourceTable& sources, const PatchTable& elem
   const double* flux = sources.flux_before.data();
   const uint32_t first = sources.element_first[source], last = sources.element_last[source];
   const double at = flux[first] + double{sample.x} * (flux[last] - flux[first]);
-  const auto element =
-      std::min(static_cast<uint32_t>(std::upper_bound(flux + first, flux + last, at) - flux) - 1, last - 1);
+  const auto k = static_cast<uint32_t>(sample.x * static_cast<float>(last - first));
+  uint32_t element = sources.guide[first + std::min(k, last - first - 1)];
+  while (element + 1 < last && flux[element + 1] <= at) ++element;
   const double width = flux[element + 1] - flux[element];
   const auto rest = static_cast<float>(width > 0 ? (at - flux[element]) / width : 0.5);
   const uint32_t face = sources.face[source];
   const bool triangle = frames.triangle[face];
   const CellFrame cell = make_cell_frame(triangle, elements.cell[element], elements.level[element]);
   return {element,
-          face_point(frames, face, cell_sample(triangle, cell, {std::min(rest, 0x1.fffffep-1f), sample.y}))};
+          face_point(frames, face,
+                     cell_sample(triangle, cell, {std::clamp(rest, 0.0f, 0x1.fffffep-1f), sample.y}))};
 }
 
 // Sixteen rays aimed from a patch at its sources, samples index .. index + 15 of place.aimed.
@@ -266,14 +277,12 @@ uint64_t probe_sources(SourceViews& views, const Place& place, const AimShares& 
 // Sources that the block hardly sees get fewer rays, but never none: the result stays unbiased.
 void weigh_shares(AimShares& shares, const SourceViews& views) {
   constexpr float kLeast = 0.05f;
-  float sum = 0;
   for (size_t s = 0; s < shares.share.size(); ++s) {
     const float seen =
         (static_cast<float>(views.reached[s]) + 0.5f) / (static_cast<float>(views.tried[s]) + 1.0f);
-    shares.cumulative[s] = sum += shares.share[s] *= std::max(seen, kLeast);
+    shares.share[s] *= std::max(seen, kLeast);
   }
-  for (size_t s = 0; s < shares.share.size(); ++s) shares.share[s] /= sum, shares.cumulative[s] /= sum;
-  shares.cumulative.back() = 1;
+  scale_shares(shares);
 }
 
 // What two halves of some rays give; each half estimates half of the whole.
@@ -355,6 +364,21 @@ std::vector<uint32_t> make_blocks(const ReceiverTable& receivers, const PatchTab
   return block_first;
 }
 
+// Does a receiver aim at what emits there?
+bool is_aimed_at(const RowEmission& emission, uint32_t receiver, uint32_t face, uint32_t cell) {
+  const uint32_t piece = find_piece(emission.groups, face, cell);
+  if (piece == kNone) return false;
+  const uint32_t group = emission.groups.group_of[piece];
+  const SightTable& sights = emission.sights;
+  const auto begin = sights.group.begin() + sights.first[receiver],
+             end = sights.group.begin() + sights.first[receiver + 1];
+  const auto at = std::lower_bound(begin, end, group);
+  return at != end && *at == group &&
+         (sights.pieces[static_cast<size_t>(at - sights.group.begin())] >>
+              (piece - emission.groups.piece_first[group]) &
+          1u) != 0;
+}
+
 // The value of a receiver to all of its patches.
 void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, Rgb value) {
   for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k)
@@ -364,7 +388,7 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 }  // namespace
 
 void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
-                     std::span<const float> emission_by_rows) {
+                     const RowEmission& emission) {
   const FaceTable& faces = rows.by.surfaces.faces;
   // Few patches emit: a number a patch stays in the cache.
   std::vector<float> emits(rows.by.patches.size());
@@ -375,12 +399,18 @@ void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows
       Halves sum;
       // Polygons that share a receiver aim alike.
       const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
-      const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
-      if (const float by_rows = emission_by_rows[polygon]; by_rows > 0) {
-        const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
-        for (size_t k = 0; k < hit.size(); ++k)
-          if (hit[k] < kHitBuried && emits[hit[k]] > 0 && emits[hit[k]] <= by_rows)
-            sum.half[find_half(k)] += faces.emission[rows.by.patches.face[hit[k]]];
+      const float by_rows = emission.by_rows[faces.polygon[rows.by.patches.face[own]]];
+      // Rays that start within a solid may meet a lamp that dips into it.
+      const float unaimed_most = rows.hits.buried[row] ? 0 : emission.unaimed_most;
+      if (const float most = std::max(by_rows, unaimed_most); most > 0) {
+        const RowHits hits = find_row(scratch, rows, row);
+        for (size_t k = 0; k < hits.patch.size(); ++k) {
+          const uint32_t patch = hits.patch[k];
+          if (patch >= kHitBuried || emits[patch] == 0 || emits[patch] > most) continue;
+          const uint32_t face = rows.by.patches.face[patch];
+          if (emits[patch] <= by_rows || !is_aimed_at(emission, row, face, hits.cell[k]))
+            sum.half[find_half(k)] += faces.emission[face];
+        }
       }
       const uint32_t valid = rows.hits.valid_count(row);
       sum *= valid ? 1 / static_cast<float>(valid) : 0;

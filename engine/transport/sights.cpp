@@ -21,7 +21,7 @@ constexpr double kEmitterSkyMax = 0.8;
 // Bright ones that fill no more of it are aimed at all the same: rows would meet them by chance.
 constexpr double kSpotSkyMax = 0.1;
 // Rays from a receiver at a group: at first, and in all where some arrive and some do not.
-constexpr uint32_t kFirstPackets = 4, kMixedPackets = 16;
+constexpr uint32_t kFirstPackets = 4, kMixedPackets = 8;
 // Rays at a group of the sky by which is told whether anything of it, or of one beside it, may be seen.
 constexpr uint32_t kGlancePackets = 2;
 constexpr size_t kFewGroups = 8;
@@ -33,22 +33,10 @@ struct Look {
   uint32_t rays = 0, arrived = 0;
 };
 
-// A point on a piece, just before it, or for the sky a direction; and whether the piece faces the start.
-struct Aim {
-  Vec3 way;
-  bool faces;
-  float far;  // in lengths of the way
-};
-Aim aim_at_lamp(const Emitter& emitter, const FaceFrameTable& frames, Vec3 start, Vec2 sample) {
-  const Vec2 uv = cell_sample(frames.triangle[emitter.face], emitter.cell, sample);
-  const Vec3 point = face_point(frames, emitter.face, uv);
-  const Vec3 way = point + ray_offset(start, point) * emitter.normal - start;
-  return {way, dot(way, emitter.normal) < 0, 1};
-}
-
 // Receivers that look together, and so see alike: those of patches beside one another on a face.
 struct Looker {
   uint32_t first, last;  // receivers
+  bool shared;           // one, of several patches
   uint32_t size() const { return last - first; }
 };
 std::vector<Looker> make_lookers(const Casters& from) {
@@ -67,45 +55,93 @@ std::vector<Looker> make_lookers(const Casters& from) {
     if (goes_on)
       lookers.back().last = r + 1;
     else
-      lookers.push_back({r, r + 1});
+      lookers.push_back({r, r + 1, !is_single(r)});
   }
   return lookers;
+}
+
+// Where a looker's rays start: sixteen points of its receivers, just off their faces, and the normals there.
+struct Starts {
+  std::array<float, kPacketSize> normal_x, normal_y, normal_z;
+};
+// samples: two numbers a ray: consecutive rays part, origins by strata of 4 x 4.
+void make_starts(Starts& starts, RayPacket& rays, const Casters& from, const Looker& looker, uint32_t packet,
+                 std::span<const Vec2, kPacketSize> samples) {
+  const auto place = [&](uint32_t k) {
+    return Vec2((static_cast<float>(k % 4) + samples[k].x) * 0.25f,
+                (static_cast<float>(k / 4) + samples[k].y) * 0.25f);
+  };
+  const auto set = [&](uint32_t k, Vec3 point, Vec3 normal) {
+    const Vec3 start = point + ray_offset(point) * normal;
+    rays.origin_x[k] = start.x, rays.origin_y[k] = start.y, rays.origin_z[k] = start.z;
+    starts.normal_x[k] = normal.x, starts.normal_y[k] = normal.y, starts.normal_z[k] = normal.z;
+  };
+  if (looker.shared) {
+    for (uint32_t k = 0; k < kPacketSize; ++k) {
+      const Origin origin = find_origin(from, looker.first, place(k));
+      set(k, origin.point, origin.normal);
+    }
+    return;
+  }
+  // Cells of one face.
+  const FaceFrameTable& frames = from.surfaces.frames;
+  const uint32_t patch = from.receivers.patch[from.receivers.first[looker.first]],
+                 face = from.patches.face[patch];
+  const bool triangle = frames.triangle[face];
+  std::array<CellFrame, 4> cells;
+  for (uint32_t m = 0; m < looker.size(); ++m) {
+    const uint32_t p = from.receivers.patch[from.receivers.first[looker.first + m]];
+    cells[m] = make_cell_frame(triangle, from.patches.cell[p], from.patches.level[p]);
+  }
+  const Vec3 normal = from.surfaces.faces.normal[face];
+  for (uint32_t k = 0; k < kPacketSize; ++k)
+    set(k,
+        face_point(frames, face,
+                   cell_sample(triangle, cells[(k + k / 4 + packet) % looker.size()], place(k))),
+        normal);
 }
 
 // One packet of rays from a looker's receivers at the pieces of a group in turn.
 void look(Look& sum, const Casters& from, const Looker& looker, bool buried, const EmitterGroups& groups,
           size_t group, uint64_t key, uint32_t packet) {
-  const FaceFrameTable& frames = from.surfaces.frames;
-  const uint32_t first = groups.piece_first[group], count = groups.piece_count(group);
-  const bool sky = groups.is_sky(group);
-  RayPacket rays;
+  const uint32_t count = groups.piece_count(group), first_ray = packet * kPacketSize;
+  // A prime strides through all pieces, but through no multiple of itself.
+  const uint32_t stride = (count == 37 ? 41u : 37u) % count;
+  uint32_t next = (first_ray * stride + packet) % count;
   std::array<uint32_t, kPacketSize> piece;
-  uint32_t active = 0;
-  Vec3 any_normal(0);
+  std::array<Vec2, kPacketSize> place;
+  std::array<float, kPacketSize> u, v, sent, cosine;
   for (uint32_t k = 0; k < kPacketSize; ++k) {
-    const uint32_t index = packet * kPacketSize + k;
-    const Vec2 a = make_jitter(key, 2 * index), b = make_jitter(key, 2 * index + 1);
-    // Consecutive rays part: origins by strata of 4 x 4, pieces evenly.
-    const Vec2 place((static_cast<float>(k % 4) + a.x) * 0.25f, (static_cast<float>(k / 4) + a.y) * 0.25f);
-    const Origin origin = find_origin(from, looker.first + (k + k / 4 + packet) % looker.size(), place);
-    // A prime strides through all of them, but through no multiple of itself.
-    piece[k] = (index * (count == 37 ? 41u : 37u) + packet) % count;
-    const Vec3 start = origin.point + ray_offset(origin.point) * origin.normal;
-    const auto [way, faces, far] =
-        sky ? Aim{sample_sky(groups.sky, from.surfaces.sky, groups.sky_first(group) + piece[k], b).direction,
-                  true, std::numeric_limits<float>::infinity()}
-            : aim_at_lamp(groups.pieces[first + piece[k]], frames, start, b);
-    any_normal = origin.normal;
-    if (dot(way, origin.normal) > 0 && faces) active |= 1u << k;
-    rays.origin_x[k] = start.x, rays.origin_y[k] = start.y, rays.origin_z[k] = start.z;
-    rays.direction_x[k] = way.x, rays.direction_y[k] = way.y, rays.direction_z[k] = way.z;
-    rays.near_distance[k] = 0, rays.far_distance[k] = far;
+    const std::array<float, 4> sample = make_jitter4(key, first_ray + k);
+    place[k] = {sample[0], sample[1]};
+    u[k] = sample[2], v[k] = sample[3];
+    piece[k] = next;
+    next += stride;
+    if (next >= count) next -= count;
   }
-  if (buried && active) active &= ~find_buried(from.surfaces, make_frame(any_normal), rays, active);
+  RayPacket rays;
+  Starts starts;
+  make_starts(starts, rays, from, looker, packet, place);
+  std::array<uint32_t, kPacketSize> row = piece;
+  if (groups.is_sky(group)) {
+    for (uint32_t& k : row) k += groups.sky_first(group);
+    aim_at_sky(rays, sent, groups.sky, from.surfaces.sky, row, u, v);
+  } else {
+    for (uint32_t& k : row) k += groups.piece_first[group];
+    aim_at_pieces(rays, sent, groups, row, u, v);
+  }
+  for (uint32_t k = 0; k < kPacketSize; ++k)
+    cosine[k] = std::min(rays.direction_x[k] * starts.normal_x[k] + rays.direction_y[k] * starts.normal_y[k] +
+                             rays.direction_z[k] * starts.normal_z[k],
+                         sent[k]);
+  uint32_t active = find_positive(cosine);
+  if (buried && active) {
+    const Vec3 normal(starts.normal_x[0], starts.normal_y[0], starts.normal_z[0]);
+    active &= ~find_buried(from.surfaces, make_frame(normal), rays, active);
+  }
   if (!active) return;
   const uint32_t reached = active & ~find_blocked(from.surfaces.tracer, rays, active, RayOrder::kIncoherent);
-  for (uint32_t k = 0; k < kPacketSize; ++k)
-    if (reached >> k & 1u) sum.reached |= uint64_t{1} << piece[k];
+  for (uint32_t k = 0; k < kPacketSize; ++k) sum.reached |= uint64_t{reached >> k & 1u} << piece[k];
   sum.rays += static_cast<uint32_t>(std::popcount(active));
   sum.arrived += static_cast<uint32_t>(std::popcount(reached));
 }

@@ -115,16 +115,18 @@ uint32_t count_steps(uint32_t strength) {  // beyond those of the strength befor
 
 float square(float x) { return x * x; }
 
-// Calls use(strength, value, noise) for one strength after the other.
-template <typename Use>
-void for_strengths(const NoisyColumns& columns, const SmoothingTable& smoothing, uint32_t strengths,
-                   const Use& use) {
-  Stepper<Rgb> value({columns.value.begin(), columns.value.end()}, smoothing);
-  Stepper<float> noise({columns.noise.begin(), columns.noise.end()}, smoothing);
+// Light (three channels) and its noise (the fourth) after the steps of each strength.
+std::vector<std::vector<Vec4>> smooth_by_strengths(const NoisyColumns& columns,
+                                                   const SmoothingTable& smoothing, uint32_t strengths) {
+  std::vector<Vec4> column(columns.value.size());
+  for (size_t p = 0; p < column.size(); ++p) column[p] = Vec4(columns.value[p], columns.noise[p]);
+  Stepper<Vec4> stepper(std::move(column), smoothing);
+  std::vector<std::vector<Vec4>> smoothed;
   for (uint32_t s = 0; s < strengths; ++s) {
-    value.take_steps(count_steps(s)), noise.take_steps(count_steps(s));
-    use(s, value.now, noise.now);
+    stepper.take_steps(count_steps(s));
+    smoothed.push_back(stepper.now);
   }
+  return smoothed;
 }
 
 }  // namespace
@@ -149,44 +151,38 @@ SmoothingTable make_smoothing(const PatchTable& leaves, const Surfaces& surfaces
 
 void smooth_noise(const NoisyColumns& columns, const SmoothingTable& smoothing, uint32_t strengths) {
   const size_t count = columns.value.size();
+  const std::vector<std::vector<Vec4>> smoothed = smooth_by_strengths(columns, smoothing, strengths);
   std::vector<float> least(count), best(count, 0);
-  for_strengths(columns, smoothing, strengths, [&](uint32_t s, const auto& value, const auto& noise) {
-    std::vector<float> change(count), left(count);  // squares: of the light, of its noise
+  for (uint32_t s = 0; s < strengths; ++s) {
+    std::vector<Vec2> squares(count);  // of the light's change, of the noise that is left
     for_rows(count, 4096, [&](size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) {
-        left[p] = square(noise[p]);
-        change[p] = square(mean_channel(value[p] - columns.value[p])) - square(noise[p] - columns.noise[p]);
+        const Vec4 was = smoothed[0][p], is = smoothed[s][p];
+        squares[p] = {square(mean_channel(Rgb(is) - Rgb(was))) - square(is.w - was.w), square(is.w)};
       }
     });
-    Stepper<float> changes(std::move(change), smoothing), lefts(std::move(left), smoothing);
-    changes.take_steps(s == 0 ? 0 : kAveragingSteps), lefts.take_steps(kAveragingSteps);
+    Stepper<Vec2> averaged(std::move(squares), smoothing);
+    averaged.take_steps(kAveragingSteps);
     for_rows(count, 4096, [&](size_t begin, size_t end) {
       for (size_t p = begin; p < end; ++p) {
-        const float risk = std::max(changes.now[p], 0.0f) + lefts.now[p];
+        const float risk = std::max(averaged.now[p].x, 0.0f) + averaged.now[p].y;
         if (s > 0 && risk >= least[p]) continue;
         least[p] = risk;
         best[p] = static_cast<float>(s);
       }
     });
-  });
+  }
   Stepper<float> strength(std::move(best), smoothing);
   strength.take_steps(kGradualSteps);
-  std::vector<Rgb> value_out(count, Rgb(0));
-  std::vector<float> noise_out(count, 0);
-  for_strengths(columns, smoothing, strengths, [&](uint32_t s, const auto& value, const auto& noise) {
-    for_rows(count, 4096, [&](size_t begin, size_t end) {
-      for (size_t p = begin; p < end; ++p) {
-        const float share = 1 - std::abs(strength.now[p] - static_cast<float>(s));
-        if (share <= 0) continue;
-        value_out[p] += share * value[p];
-        noise_out[p] += share * noise[p];
-      }
-    });
-  });
   for_rows(count, 4096, [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p) {
-      columns.value[p] = value_out[p];
-      columns.noise[p] = noise_out[p];
+      Vec4 sum(0);
+      for (uint32_t s = 0; s < strengths; ++s) {
+        const float share = 1 - std::abs(strength.now[p] - static_cast<float>(s));
+        if (share > 0) sum += share * smoothed[s][p];
+      }
+      columns.value[p] = Rgb(sum);
+      columns.noise[p] = sum.w;
       columns.error[p] = std::sqrt(least[p]);
     }
   });

@@ -1,6 +1,7 @@
 // Elements and what they send to nodes of their trees.
 #include "engine/transport/sources.h"
 
+#include "engine/base/parallel.h"
 #include "engine/mesh/cell.h"
 
 #include <algorithm>
@@ -87,6 +88,25 @@ SourceTable make_sources(const PatchTable& elements, const Surfaces& surfaces, s
     sources.area.push_back(cell_area(frames, node.face, node.cell, node.level));
     sources.flux.push_back(node.flux);
   }
+  for (size_t s = 0; s < sources.size(); ++s) {
+    const Vec3 centre = sources.centre[s], normal = sources.normal[s];
+    sources.x.push_back(centre.x), sources.y.push_back(centre.y), sources.z.push_back(centre.z);
+    sources.normal_x.push_back(normal.x), sources.normal_y.push_back(normal.y);
+    sources.normal_z.push_back(normal.z);
+    sources.share.push_back(static_cast<float>(sources.flux[s] / flux_before.back()));
+  }
+  sources.guide.resize(elements.size());
+  for_rows(sources.size(), 8, [&](size_t begin, size_t end) {
+    for (size_t s = begin; s < end; ++s) {
+      const uint32_t first = sources.element_first[s], last = sources.element_last[s];
+      const double step = (flux_before[last] - flux_before[first]) / (last - first);
+      uint32_t element = first;
+      for (uint32_t k = 0; k < last - first; ++k) {
+        while (element + 1 < last && flux_before[element + 1] <= flux_before[first] + k * step) ++element;
+        sources.guide[first + k] = element;
+      }
+    }
+  });
   sources.flux_before = std::move(flux_before);
   return sources;
 }
