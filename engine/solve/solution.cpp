@@ -43,10 +43,6 @@ Rows get_rows(const Solution& s) {
           s.transport.hits};
 }
 
-RowEmission get_row_emission(const Solution& s) {
-  return {s.transport.emission_by_rows, s.transport.groups, s.transport.sights, s.transport.unaimed_most};
-}
-
 DirectRays final_rays(const SolverSettings& settings) {
   const uint32_t rays = count_row_rays(settings);
   return {std::max(rays * 2 / 9, 16u), std::max(rays * 8 / 9, 16u), true};

@@ -6,7 +6,6 @@
 #include "engine/light/direct.h"
 #include "engine/mesh/vertices.h"
 #include "engine/solve/solve.h"
-#include "engine/transport/gather.h"
 #include "engine/transport/rows.h"
 
 namespace patchlight {
@@ -21,9 +20,6 @@ constexpr double kMeanOfError = 0.8;
 
 // The rows of the patches, for kernels that gather.
 Rows get_rows(const Solution& solution);
-
-// The emission that rows see.
-RowEmission get_row_emission(const Solution& solution);
 
 // Rays for the direct light of an element of the final mesh.
 DirectRays final_rays(const SolverSettings& settings);

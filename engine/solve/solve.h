@@ -57,7 +57,6 @@ struct Transport {
   EmitterGroups groups;
   std::vector<float> emission_by_rows;  // a row a polygon: what its rows see of the emitters (sights.h)
   SightTable sights;                    // a row a receiver
-  float unaimed_most = 0;               // W/m2: emission that rows see though it is not aimed at (gather.h)
   ReceiverTable receivers;              // of the patches
   HitTable hits;                        // a row of rays a receiver
   SmoothingTable smoothing;             // of what rows carry; made when the mesh is final

@@ -15,7 +15,7 @@
 namespace patchlight {
 namespace {
 
-constexpr float kVisibleNoise = 0.01f;  // share of an element's radiosity
+constexpr float kVisibleNoise = 0.02f;  // that smoothing leaves: share of an element's radiosity
 // Rays of all elements with shadow edges, at least, as long as each has no more than so many times the usual
 // ones.
 constexpr size_t kFewEdgesRays = 500'000;
@@ -87,16 +87,6 @@ void find_direct_of(Solution& s, std::span<const uint32_t> rows, DirectRays rays
                   s.settings.seed);
 }
 
-// Emission of which one ray of a row brings as much as the mean element receives.
-float find_unaimed_most(const Solution& s) {
-  double power = 0, area = 0;
-  for (size_t row = 0; row < s.mesh.elements.size(); ++row) {
-    const double exposed = double{s.mesh.elements.area[row]} * s.mesh.elements.exposed[row];
-    area += exposed, power += exposed * luminance(s.light.direct[row]);
-  }
-  return area > 0 ? static_cast<float>(power / area) * static_cast<float>(s.transport.hits.ray_count) : 0;
-}
-
 PatchSettings make_patch_settings(const Solution& s, const AskedSizes& asked) {
   return {count_transport_patches(s.surfaces->faces, s.settings), find_size_factor(s.settings),
           s.settings.seed, s.settings.threshold_indirect, asked};
@@ -124,7 +114,7 @@ void find_coarse(Solution& s, const Rows& rows) {
   const size_t count = s.mesh.patches.size();
   const std::vector<Rgb> direct = find_patch_means(s, s.light.direct);
   std::vector<Rgb> emitted(count), sent(count), next(count);
-  gather_emission(emitted, {}, rows, get_row_emission(s));
+  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
   s.light.coarse = emitted;
   for (size_t p = 0; p < count; ++p)
     sent[p] = s.surfaces->faces.reflectance[s.mesh.patches.face[p]] * (direct[p] + emitted[p]);
@@ -279,22 +269,43 @@ bool split_patches(Solution& s, const AskedSizes& sizes) {
   s.log.trace_seconds += watch.lap();
   const Rows rows = get_rows(s);
   std::vector<Rgb> emitted(s.mesh.patches.size());
-  gather_emission(emitted, {}, rows, get_row_emission(s));
+  gather_emission(emitted, {}, rows, s.transport.emission_by_rows);
   step_coarse(s, rows, find_patch_means(s, s.light.direct), emitted);
   s.log.solve_seconds += watch.lap();
   return true;
 }
 
-// Elements with a shadow edge in them whose noise would show, and their neighbours, where sixteen rays may
-// have missed one.
+// Elements whose direct light is noisy: those that see all of a lamp or nothing of it keep what they have.
+std::vector<uint32_t> find_noisy_elements(const Solution& s) {
+  std::vector<uint32_t> rows;
+  for (uint32_t row = 0; row < s.light.direct_noise.size(); ++row)
+    if (s.light.direct_noise[row] != 0) rows.push_back(row);
+  return rows;
+}
+
+// What smoothing would leave of the error of direct light, a row an element, W/m2.
+std::vector<float> find_error_left(const Solution& s) {
+  std::vector<float> left = s.light.direct_error;
+  const std::vector<uint32_t> noisy = find_noisy_elements(s);
+  const SmoothingTable smoothing = make_smoothing(s.mesh.elements, *s.surfaces, noisy);
+  std::vector<Rgb> direct = s.light.direct;
+  std::vector<float> noise = s.light.direct_noise, error(left.size());
+  smooth_noise({direct, noise, error}, smoothing, kDirectStrengths);
+  for (const uint32_t row : smoothing.leaf) left[row] = std::min(left[row], error[row]);
+  return left;
+}
+
+// Elements with a shadow edge in them whose noise would show though it is smoothed, and their neighbours,
+// where sixteen rays may have missed one.
 std::vector<uint32_t> find_shadow_edges(const Solution& s) {
+  const std::vector<float> left = find_error_left(s);
   std::vector<uint8_t> near(s.mesh.elements.size(), 0);
   for_rows(near.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t row = begin; row < end; ++row) {
       if (s.light.direct_error[row] == 0) continue;
       // On black surfaces no noise shows; there the irradiance itself is what is asked for.
       const float reflectance = largest(s.surfaces->faces.reflectance[s.mesh.elements.face[row]]);
-      const float shown = reflectance * s.light.direct_error[row];
+      const float shown = reflectance * left[row];
       if (reflectance > 0 && shown <= kVisibleNoise * largest(s.mesh.elements.radiosity[row])) continue;
       std::atomic_ref<uint8_t>(near[row]).store(1, std::memory_order_relaxed);
       for (uint32_t edge = 0; edge < edge_count(s.surfaces->frames, s.mesh.elements.face[row]); ++edge)
@@ -306,14 +317,6 @@ std::vector<uint32_t> find_shadow_edges(const Solution& s) {
   std::vector<uint32_t> rows;
   for (uint32_t row = 0; row < near.size(); ++row)
     if (near[row]) rows.push_back(row);
-  return rows;
-}
-
-// Elements whose direct light is noisy: those that see all of a lamp or nothing of it keep what they have.
-std::vector<uint32_t> find_noisy_elements(const Solution& s) {
-  std::vector<uint32_t> rows;
-  for (uint32_t row = 0; row < s.light.direct_noise.size(); ++row)
-    if (s.light.direct_noise[row] != 0) rows.push_back(row);
   return rows;
 }
 
@@ -360,8 +363,7 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
       make_emitter_groups(s.surfaces->faces, s.surfaces->frames, s.surfaces->sky, pick_sky_detail(s));
   s.transport.emission_by_rows =
       find_emission_by_rows(*s.surfaces, s.transport.groups, s.mesh.patches, s.transport.receivers);
-  s.transport.sights =
-      find_sights(get_rows(s).by, s.transport.groups, s.transport.emission_by_rows, ray_count);
+  s.transport.sights = find_sights(get_rows(s), s.transport.groups, s.transport.emission_by_rows, ray_count);
   const size_t count = s.mesh.elements.size();
   s.light.direct.resize(count);
   s.light.direct_error.resize(count);
@@ -369,7 +371,6 @@ Solution make_solution(std::shared_ptr<const Surfaces> surfaces, const SolverSet
   s.mesh.reasons.assign(count, SplitReason::kStart);
   s.mesh.fresh = all_rows(count);
   find_direct_of(s, s.mesh.fresh, kStartRays);
-  s.transport.unaimed_most = find_unaimed_most(s);
   s.log.trace_seconds += watch.lap();
   find_coarse(s, get_rows(s));
   s.log.solve_seconds += watch.lap();

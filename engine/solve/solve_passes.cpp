@@ -158,7 +158,7 @@ SmoothBounce gather_aimed(const Solution& s, uint64_t& ray_count) {
 // The first pass: emission that rows meet.
 SmoothBounce gather_first(const Solution& s) {
   std::vector<Rgb> received(s.mesh.patches.size()), noise(received.size());
-  gather_emission(received, noise, get_rows(s), get_row_emission(s));
+  gather_emission(received, noise, get_rows(s), s.transport.emission_by_rows);
   return smooth_bounce(s, received, noise);
 }
 

@@ -364,21 +364,6 @@ std::vector<uint32_t> make_blocks(const ReceiverTable& receivers, const PatchTab
   return block_first;
 }
 
-// Does a receiver aim at what emits there?
-bool is_aimed_at(const RowEmission& emission, uint32_t receiver, uint32_t face, uint32_t cell) {
-  const uint32_t piece = find_piece(emission.groups, face, cell);
-  if (piece == kNone) return false;
-  const uint32_t group = emission.groups.group_of[piece];
-  const SightTable& sights = emission.sights;
-  const auto begin = sights.group.begin() + sights.first[receiver],
-             end = sights.group.begin() + sights.first[receiver + 1];
-  const auto at = std::lower_bound(begin, end, group);
-  return at != end && *at == group &&
-         (sights.pieces[static_cast<size_t>(at - sights.group.begin())] >>
-              (piece - emission.groups.piece_first[group]) &
-          1u) != 0;
-}
-
 // The value of a receiver to all of its patches.
 void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, Rgb value) {
   for (uint32_t k = receivers.first[row]; k < receivers.first[row + 1]; ++k)
@@ -388,7 +373,7 @@ void spread(std::span<Rgb> column, const ReceiverTable& receivers, size_t row, R
 }  // namespace
 
 void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
-                     const RowEmission& emission) {
+                     std::span<const float> emission_by_rows) {
   const FaceTable& faces = rows.by.surfaces.faces;
   // Few patches emit: a number a patch stays in the cache.
   std::vector<float> emits(rows.by.patches.size());
@@ -399,18 +384,12 @@ void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows
       Halves sum;
       // Polygons that share a receiver aim alike.
       const uint32_t own = rows.by.receivers.patch[rows.by.receivers.first[row]];
-      const float by_rows = emission.by_rows[faces.polygon[rows.by.patches.face[own]]];
-      // Rays that start within a solid may meet a lamp that dips into it.
-      const float unaimed_most = rows.hits.buried[row] ? 0 : emission.unaimed_most;
-      if (const float most = std::max(by_rows, unaimed_most); most > 0) {
-        const RowHits hits = find_row(scratch, rows, row);
-        for (size_t k = 0; k < hits.patch.size(); ++k) {
-          const uint32_t patch = hits.patch[k];
-          if (patch >= kHitBuried || emits[patch] == 0 || emits[patch] > most) continue;
-          const uint32_t face = rows.by.patches.face[patch];
-          if (emits[patch] <= by_rows || !is_aimed_at(emission, row, face, hits.cell[k]))
-            sum.half[find_half(k)] += faces.emission[face];
-        }
+      const uint32_t polygon = faces.polygon[rows.by.patches.face[own]];
+      if (const float by_rows = emission_by_rows[polygon]; by_rows > 0) {
+        const std::span<const uint32_t> hit = find_row(scratch, rows, row).patch;
+        for (size_t k = 0; k < hit.size(); ++k)
+          if (hit[k] < kHitBuried && emits[hit[k]] > 0 && emits[hit[k]] <= by_rows)
+            sum.half[find_half(k)] += faces.emission[rows.by.patches.face[hit[k]]];
       }
       const uint32_t valid = rows.hits.valid_count(row);
       sum *= valid ? 1 / static_cast<float>(valid) : 0;

@@ -1,30 +1,19 @@
 // One bounce: what each patch receives, from the rays of its row and from rays aimed at bright places.
 #pragma once
 
-#include "engine/light/emitters.h"
 #include "engine/transport/rows.h"
 
 #include <span>
 
 namespace patchlight {
 
-// Which emission rows see.
-struct RowEmission {
-  std::span<const float> by_rows;  // a row a polygon: find_emission_by_rows()
-  const EmitterGroups& groups;
-  const SightTable& sights;
-  // And what their receivers aim at none of, because no look at the emitters found it, if it emits no more
-  // than this (W/m2, luminance): one ray that meets a small bright lamp would make a spot of light.
-  float unaimed_most = 0;
-};
-
-// Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that its row
-// meets and that is not aimed at. irradiance: a row a patch, overwritten.
+// Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
+// meets and that is not aimed at (find_emission_by_rows in sights.h). irradiance: a row a patch, overwritten.
 //
 // noise, here and below: half the difference of what two independent halves of the rays give, a sample of the
 // error; a row a patch, overwritten; empty: not wanted.
 void gather_emission(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,
-                     const RowEmission& emission);
+                     std::span<const float> emission_by_rows);
 
 // Irradiance of each patch from what `sent` (a row a patch, W/m2) says the patches send.
 void gather_patches(std::span<Rgb> irradiance, std::span<Rgb> noise, const Rows& rows,

@@ -15,8 +15,9 @@ std::vector<float> find_emission_by_rows(const Surfaces& surfaces, const Emitter
 
 // Looks from all receivers at all groups that they aim at, the sky's always. What a receiver's neighbours see
 // it may see, too. Raises ray_count.
-SightTable find_sights(const Casters& from, const EmitterGroups& groups,
-                       std::span<const float> emission_by_rows, uint64_t& ray_count);
+// What a row has met counts as seen, for looks may miss what shows through a gap.
+SightTable find_sights(const Rows& rows, const EmitterGroups& groups, std::span<const float> emission_by_rows,
+                       uint64_t& ray_count);
 
 // After patches were split: receivers keep what those that they come from saw. receiver_before: a row a
 // receiver.

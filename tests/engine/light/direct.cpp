@@ -24,6 +24,7 @@ struct Stage {
   ReceiverTable receivers;
   EmitterGroups groups;
   std::vector<float> emission_by_rows;
+  HitTable hits;
   SightTable sights;
   std::vector<Rgb> irradiance;
   std::vector<float> error, noise;
@@ -49,10 +50,10 @@ Stage make_stage(FaceTable faces, uint32_t level, uint64_t seed) {
   stage.groups = make_emitter_groups(stage.surfaces->faces, stage.surfaces->frames);
   stage.emission_by_rows =
       find_emission_by_rows(*stage.surfaces, stage.groups, mesh.patches, stage.receivers);
+  const Casters by{*stage.surfaces, mesh.patches, mesh.patch_index, stage.receivers, make_ray_grid(64), seed};
+  cast_rows(stage.hits, mesh.patches.exposed, all_rows(stage.receivers.size()), by, true);
   uint64_t looks = 0;
-  stage.sights =
-      find_sights({*stage.surfaces, mesh.patches, mesh.patch_index, stage.receivers, make_ray_grid(16), seed},
-                  stage.groups, stage.emission_by_rows, looks);
+  stage.sights = find_sights({by, stage.hits}, stage.groups, stage.emission_by_rows, looks);
   return stage;
 }
 
@@ -242,6 +243,35 @@ TEST_CASE("a polygon whose sky is full of lamps leaves them all to its rows; one
     for (const float by_rows : stage.emission_by_rows) CHECK(by_rows == (all ? luminance(Rgb(1)) : 0));
     CHECK((stage.sights.size() == 0) == all);
   }
+}
+
+TEST_CASE("what a row has met is in sight of its receiver, though it shows through a small hole only") {
+  FaceTable faces = make_floor();
+  // A wide panel above a ceiling with a hole of a fiftieth of its width.
+  add_quad(faces, {-2, 2, -2}, {3, 2, -2}, {3, 2, 3}, {-2, 2, 3}, make_surface(1, 0));
+  const auto add_ceiling = [&](float x0, float x1, float z0, float z1) {
+    add_two_sided(faces, std::array{Vec3(x0, 1, z0), Vec3(x1, 1, z0), Vec3(x1, 1, z1), Vec3(x0, 1, z1)}, {},
+                  {});
+  };
+  add_ceiling(-2, 0.45f, -2, 3), add_ceiling(0.55f, 3, -2, 3);
+  add_ceiling(0.45f, 0.55f, -2, 0.45f), add_ceiling(0.45f, 0.55f, 0.55f, 3);
+  const Stage stage = make_stage(std::move(faces), 4, 1);
+  const SightTable& sights = stage.sights;
+  uint32_t met = 0;
+  for (uint32_t row = 0; row < 256; ++row)
+    for (uint32_t k = 0; k < stage.hits.ray_count; ++k) {
+      const uint32_t patch = stage.hits.patch[row * stage.hits.ray_count + k];
+      if (patch >= kHitBuried || stage.mesh.patches.face[patch] != 1) continue;
+      ++met;
+      const uint32_t piece = find_piece(stage.groups, 1, stage.hits.cell[row * stage.hits.ray_count + k]);
+      REQUIRE(piece != kNone);
+      const uint32_t group = stage.groups.group_of[piece];
+      uint64_t seen = 0;
+      for (uint32_t entry = sights.first[row]; entry < sights.first[row + 1]; ++entry)
+        if (sights.group[entry] == group) seen = sights.pieces[entry];
+      CHECK((seen >> (piece - stage.groups.piece_first[group]) & 1) == 1);
+    }
+  CHECK(met > 0);
 }
 
 TEST_CASE(

@@ -174,9 +174,9 @@ TEST_CASE("gather: rows count emission, but not those of polygons that aim at it
   const Room room = make_room(surfaces, 1);
   std::vector<float> by_rows(faces.size(), 2);
   std::vector<Rgb> all(room.patches.size()), others(all);
-  gather_emission(all, {}, get_rows(room), {by_rows, {}, {}});
+  gather_emission(all, {}, get_rows(room), by_rows);
   by_rows[faces.polygon[0]] = 0;
-  gather_emission(others, {}, get_rows(room), {by_rows, {}, {}});
+  gather_emission(others, {}, get_rows(room), by_rows);
   double floor_all = 0;
   const uint32_t count = room.patches.face_first[1];
   for (uint32_t row = 0; row < count; ++row) floor_all += double{all[row].g} / count;
@@ -185,39 +185,6 @@ TEST_CASE("gather: rows count emission, but not those of polygons that aim at it
   CHECK(std::abs(floor_all - (2 * 0.199824895698 + 0.200043776075)) <= error);
   for (uint32_t row = 0; row < count; ++row) CHECK(others[row] == Rgb(0));
   for (size_t row = count; row < others.size(); ++row) CHECK(others[row] == all[row]);
-}
-
-TEST_CASE("gather: rows count what their receivers aim at none of, unless it is too bright") {
-  FaceTable faces = make_box(false);
-  faces.emission[kCeiling] = Rgb(2), faces.emission[kLeft] = Rgb(1);
-  const auto surfaces = make_surfaces(faces);
-  const Room room = make_room(surfaces, 1);
-  const EmitterGroups groups = make_emitter_groups(faces, surfaces->frames);
-  // All receivers aim at the left wall alone; the ceiling was overlooked.
-  SightTable sights;
-  sights.first.push_back(0);
-  for (size_t r = 0; r < room.receivers.size(); ++r) {
-    for (uint32_t g = 0; g < groups.lamp_group_count(); ++g) {
-      uint64_t mask = 0;
-      for (uint32_t k = 0; k < groups.piece_count(g); ++k)
-        if (groups.pieces[groups.piece_first[g] + k].face == kLeft) mask |= uint64_t{1} << k;
-      if (!mask) continue;
-      sights.group.push_back(g), sights.pieces.push_back(mask), sights.clear.push_back(0);
-    }
-    sights.first.push_back(static_cast<uint32_t>(sights.group.size()));
-  }
-  const std::vector<float> by_rows(faces.size(), 0);
-  std::vector<Rgb> overlooked(room.patches.size()), ceiling(overlooked), dim(overlooked);
-  gather_emission(overlooked, {}, get_rows(room), {by_rows, groups, sights, 2.5f});
-  gather_emission(dim, {}, get_rows(room), {by_rows, groups, sights, 1.5f});
-  // The same rays in the room with the ceiling alone.
-  faces.emission[kLeft] = Rgb(0);
-  const Room bare = make_room(make_surfaces(faces), 1);
-  gather_emission(ceiling, {}, get_rows(bare), {std::vector<float>(faces.size(), 2), {}, {}});
-  for (size_t row = 0; row < ceiling.size(); ++row) {
-    CHECK(overlooked[row] == ceiling[row]);
-    CHECK(dim[row] == Rgb(0));
-  }
 }
 
 TEST_CASE("sources: bright nodes that do not overlap, made of whole elements") {
