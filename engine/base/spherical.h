@@ -12,7 +12,7 @@ inline double find_solid_angle(DVec3 a, DVec3 b, DVec3 c) {
 }
 
 // The unit part of p across the unit vector a.
-inline DVec3 find_across(DVec3 p, DVec3 a) {
+inline DVec3 find_unit_across(DVec3 p, DVec3 a) {
   const DVec3 across = p - dot(p, a) * a;
   const double size = length(across);
   return size > 0 ? across / size : DVec3(0);
@@ -21,7 +21,7 @@ inline DVec3 find_across(DVec3 p, DVec3 a) {
 // A unit direction, even in the solid angle of the triangle, from a point (u, v) of the unit square (Arvo:
 // Stratified Sampling of Spherical Triangles, 1995).
 inline DVec3 sample_spherical_triangle(DVec3 a, DVec3 b, DVec3 c, double solid_angle, double u, double v) {
-  const DVec3 to_b = find_across(b, a), to_c = find_across(c, a);
+  const DVec3 to_b = find_unit_across(b, a), to_c = find_unit_across(c, a);
   const double cosine = std::clamp(dot(to_b, to_c), -1.0, 1.0), sine = std::sqrt(1 - cosine * cosine);
   const double angle = std::acos(cosine);  // of the triangle at a
   const double s = std::sin(u * solid_angle - angle), t = std::cos(u * solid_angle - angle);
@@ -31,7 +31,7 @@ inline DVec3 sample_spherical_triangle(DVec3 a, DVec3 b, DVec3 c, double solid_a
   const double q = below != 0 ? std::clamp(((up * t - along * s) * cosine - up) / below, -1.0, 1.0) : 1.0;
   const DVec3 moved = q * a + std::sqrt(1 - q * q) * to_c;
   const double z = 1 - v * (1 - dot(moved, b));
-  return z * b + std::sqrt(std::max(1 - z * z, 0.0)) * find_across(moved, b);
+  return z * b + std::sqrt(std::max(1 - z * z, 0.0)) * find_unit_across(moved, b);
 }
 
 }  // namespace patchlight

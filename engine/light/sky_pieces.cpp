@@ -5,6 +5,7 @@
 #include "engine/light/lambert.h"
 #include "engine/mesh/cell_rays.h"
 
+#include <limits>
 #include <map>
 
 namespace patchlight {

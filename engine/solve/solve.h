@@ -55,7 +55,7 @@ struct PowerLedger {
 // What light travels along.
 struct Transport {
   EmitterGroups groups;
-  std::vector<float> emission_by_rows;  // a row a polygon: what its rows see of the emitters (sights.h)
+  std::vector<float> emission_by_rows;  // a row a polygon: what its rows see of the emitters
   SightTable sights;                    // a row a receiver
   ReceiverTable receivers;              // of the patches
   HitTable hits;                        // a row of rays a receiver

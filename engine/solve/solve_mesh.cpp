@@ -4,6 +4,7 @@
 #include "engine/mesh/refine.h"
 #include "engine/solve/sizes.h"
 #include "engine/solve/solution.h"
+#include "engine/transport/emission_by_rows.h"
 #include "engine/transport/gather.h"
 #include "engine/transport/receivers.h"
 #include "engine/transport/sights.h"

@@ -8,7 +8,7 @@
 namespace patchlight {
 
 // Irradiance of each patch (W/m2, mean over the exposed area of its receiver) from the emission that the row
-// meets and that is not aimed at (find_emission_by_rows in sights.h). irradiance: a row a patch, overwritten.
+// meets and that is not aimed at (emission_by_rows.h). irradiance: a row a patch, overwritten.
 //
 // noise, here and below: half the difference of what two independent halves of the rays give, a sample of the
 // error; a row a patch, overwritten; empty: not wanted.

@@ -2,6 +2,7 @@
 
 #include "engine/light/lambert.h"
 #include "engine/mesh/face_links.h"
+#include "engine/transport/emission_by_rows.h"
 #include "engine/transport/receivers.h"
 #include "engine/transport/rows.h"
 #include "engine/transport/sights.h"
