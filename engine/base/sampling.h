@@ -22,21 +22,22 @@ inline uint64_t make_ray_key(uint64_t seed, uint32_t face, uint32_t cell, uint32
                   mix_bits((uint64_t{face} << 32 | cell) + 0x632be59bd9b4e019ull * (level + 1)));
 }
 
-// Two numbers in [0, 1) for sample `index` of a key.
+// 64 random bits for sample `index` of a key.
+inline uint64_t make_sample_bits(uint64_t key, uint32_t index) {
+  return mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+}
+// Two numbers in [0, 1) of them, to 24 bits; three, to 21; four, to 16.
 inline Vec2 make_jitter(uint64_t key, uint32_t index) {
-  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+  const uint64_t bits = make_sample_bits(key, index);
   return {static_cast<float>(bits >> 40) * 0x1p-24f, static_cast<float>(bits >> 8 & 0xffffff) * 0x1p-24f};
 }
-
-// Three numbers in [0, 1), to 21 bits.
 inline Vec3 make_jitter3(uint64_t key, uint32_t index) {
-  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+  const uint64_t bits = make_sample_bits(key, index);
   const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0x1fffff) * 0x1p-21f; };
   return {part(43), part(22), part(1)};
 }
-// Four, to 16 bits.
 inline std::array<float, 4> make_jitter4(uint64_t key, uint32_t index) {
-  const uint64_t bits = mix_bits(key + 0x9e3779b97f4a7c15ull * (index + 1));
+  const uint64_t bits = make_sample_bits(key, index);
   const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0xffff) * 0x1p-16f; };
   return {part(48), part(32), part(16), part(0)};
 }

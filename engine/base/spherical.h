@@ -5,6 +5,9 @@
 
 namespace patchlight {
 
+// Below so many steradians the formulas lose digits, and even in the area is even enough.
+constexpr double kSmallSolidAngle = 1e-3;
+
 // The solid angle of a triangle whose corners are in these unit directions (Van Oosterom, Strackee: The Solid
 // Angle of a Plane Triangle, 1983).
 inline double find_solid_angle(DVec3 a, DVec3 b, DVec3 c) {

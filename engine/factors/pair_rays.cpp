@@ -10,9 +10,6 @@
 namespace patchlight {
 namespace {
 
-// Triangles that look smaller than this (in steradians) are sampled evenly in their area: the spherical
-// formula loses digits, and has nothing to gain.
-constexpr double kSmallAngle = 1e-3;
 // Polygons further apart than so many of their radii together are far: their sky hardly changes.
 constexpr double kFar = 1.5;
 // So many points are sorted at a time; a power of two.
@@ -71,7 +68,7 @@ Target find_near_target(SampleScratch& sky, Triangles triangles, DVec3 normal_to
   if (!(sum > 0)) return kNoTarget;
   const size_t k = pick(sky.angle_until, u);
   const double angle = sky.angle_until[k] - (k == 0 ? 0 : sky.angle_until[k - 1]);
-  if (angle < kSmallAngle) {
+  if (angle < kSmallSolidAngle) {
     const double area = find_area(triangles[k]);
     const Target target =
         find_far_target(triangles.subspan(k, 1), {&area, 1}, normal_to, origin, normal, u, v);

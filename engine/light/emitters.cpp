@@ -181,6 +181,22 @@ void split_group(std::vector<PieceName>& names, uint32_t first, uint32_t last, s
   split_group(names, middle, last, ends);
 }
 
+// Which pieces each face has, by their cells, and which group has each piece.
+void index_pieces(EmitterGroups& groups, const std::vector<PieceName>& names, size_t face_count) {
+  for (uint32_t g = 0; g < groups.size(); ++g) groups.group_of.resize(groups.piece_first[g + 1], g);
+  groups.of_face.resize(names.size());
+  std::iota(groups.of_face.begin(), groups.of_face.end(), 0u);
+  std::sort(groups.of_face.begin(), groups.of_face.end(), [&](uint32_t a, uint32_t b) {
+    return names[a].face != names[b].face ? names[a].face < names[b].face : names[a].cell < names[b].cell;
+  });
+  groups.face_first.assign(face_count + 1, 0);
+  for (const PieceName& name : names) {
+    groups.cell.push_back(name.cell);
+    ++groups.face_first[name.face + 1];
+  }
+  std::partial_sum(groups.face_first.begin(), groups.face_first.end(), groups.face_first.begin());
+}
+
 // Groups of the sky's cells, as they lie side by side, and one of the sun alone.
 void add_sky(EmitterGroups& groups, const Sky& sky, SkyDetail detail) {
   groups.sky = make_sky_pieces(sky, detail);
@@ -260,18 +276,7 @@ EmitterGroups make_emitter_groups(const FaceTable& faces, const FaceFrameTable& 
     groups.frames.push_back(make_piece_frame(piece, frames, luminance(emission)));
     groups.pieces.push_back(piece);
   }
-  for (uint32_t g = 0; g < groups.size(); ++g) groups.group_of.resize(groups.piece_first[g + 1], g);
-  groups.of_face.resize(names.size());
-  std::iota(groups.of_face.begin(), groups.of_face.end(), 0u);
-  std::sort(groups.of_face.begin(), groups.of_face.end(), [&](uint32_t a, uint32_t b) {
-    return names[a].face != names[b].face ? names[a].face < names[b].face : names[a].cell < names[b].cell;
-  });
-  groups.face_first.assign(faces.size() + 1, 0);
-  for (const PieceName& name : names) {
-    groups.cell.push_back(name.cell);
-    ++groups.face_first[name.face + 1];
-  }
-  std::partial_sum(groups.face_first.begin(), groups.face_first.end(), groups.face_first.begin());
+  index_pieces(groups, names, faces.size());
   groups.beside.resize(groups.pieces.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     const uint32_t first = groups.piece_first[g], last = groups.piece_first[g + 1];

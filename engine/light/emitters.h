@@ -29,13 +29,12 @@ struct Emitter {
 
 Emitter make_emitter(const FaceTable& faces, const FaceFrameTable& frames, const CellName& name);
 
-// What a ray to a piece of a lamp needs, side by side: the piece's point (s, t) is origin + s edge_u + t
-// edge_v
-// + s t twist, for (s, t) of the unit square, or of the triangle below its diagonal.
+// What a ray to a piece of a lamp needs, side by side. The piece's point (s, t) of the unit square, or of the
+// triangle below its diagonal: origin + s edge_u + t edge_v + s t twist.
 struct PieceFrame {
   Vec3 origin, edge_u, edge_v, twist, normal;
   Vec3 jacobian;   // times (1, s, t): the area at (s, t) over that of a flat map
-  float strength;  // area times emission, W times lengths squared over m2, luminance
+  float strength;  // area times emission (lengths squared times W/m2, luminance)
   float triangle;  // 1 or 0
 };
 

@@ -30,6 +30,7 @@ double find_point_form_factor(DVec3 point, DVec3 normal, std::span<const Vec3> c
     const DVec3 a = above[k], b = above[k + 1 == count ? 0 : k + 1];
     const DVec3 across = cross(a, b);
     const double scale = inverse[k] * inverse[k + 1 == count ? 0 : k + 1], cosine = dot(a, b) * scale;
+    // Not a number where the point is a corner.
     if (cosine > kNarrow) {
       const double x = 2 * (1 - cosine);
       double ratio = kTerms[8];

@@ -17,8 +17,6 @@ namespace {
 constexpr float kNearEmitter = 40;
 // A piece nearer than so many of its diameters is near for its size.
 constexpr float kNearPiece = 1.5f;
-// Below so many steradians the spherical formula loses digits, and has nothing to gain.
-constexpr double kSmallAngle = 1e-3;
 // A piece of a group that looks wider than this takes more than its centre.
 constexpr float kWidePiece = 0.1f;
 
@@ -356,7 +354,7 @@ void aim_at_near_piece(RayPacket& rays, float& sent, uint32_t k, const Emitter& 
   const double first = find_solid_angle(unit[0], unit[1], unit[2]);
   const double second = piece.corner_count == 4 ? find_solid_angle(unit[0], unit[2], unit[3]) : 0,
                all = first + second;
-  if (!(all > kSmallAngle)) return;
+  if (!(all > kSmallSolidAngle)) return;
   const bool in_first = u * all < first;
   const double rest = in_first ? u * all / first : (u * all - first) / second;
   const DVec3 way = in_first ? sample_spherical_triangle(unit[0], unit[1], unit[2], first, rest, v)

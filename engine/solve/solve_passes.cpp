@@ -75,6 +75,12 @@ std::vector<double> find_error_power(const Solution& s, const ErrorWeights& weig
   return power;
 }
 
+double sum_error_power(const Solution& s, const ErrorWeights& weights, std::span<const float> error) {
+  double sum = 0;
+  for (const double power : find_error_power(s, weights, error)) sum += power;
+  return sum;
+}
+
 // Which receivers need more rays so that their errors' sum falls to `target`: those with the largest, for a
 // ray helps most there. gain: the share of an error that more rays take away.
 std::vector<uint8_t> pick_noisy(std::span<const double> error_power, double target, double gain,
@@ -171,13 +177,10 @@ SmoothBounce gather_later(const Solution& s, uint64_t& ray_count) {
   // Late bounces are so dim that their noise needs no smoothing.
   std::vector<float> rough(noise.size());
   for (size_t p = 0; p < rough.size(); ++p) rough[p] = std::abs(mean_channel(noise[p]));
-  double rough_error = 0;
-  for (const double power : find_error_power(s, weights, rough)) rough_error += power;
-  if (rough_error <= kQuietOfError * s.settings.error * weights.all) return {received, rough};
+  const double asked = s.settings.error * weights.all;
+  if (sum_error_power(s, weights, rough) <= kQuietOfError * asked) return {received, rough};
   SmoothBounce bounce = smooth_bounce(s, received, noise);
-  double error = 0;
-  for (const double power : find_error_power(s, weights, bounce.error)) error += power;
-  if (error <= kLaterOfError * s.settings.error * weights.all) return bounce;
+  if (sum_error_power(s, weights, bounce.error) <= kLaterOfError * asked) return bounce;
   return gather_aimed(s, ray_count);
 }
 

@@ -37,9 +37,9 @@ void scale_shares(AimShares& shares) {
   for (size_t s = 0; s < shares.share.size(); ++s) shares.cumulative[s] = sum += shares.share[s];
   shares.any = sum > 0;
   if (!shares.any) return;
-  const float scale = 1 / sum;
-  for (float& share : shares.share) share *= scale;
-  for (float& cumulative : shares.cumulative) cumulative *= scale;
+  // Far sources may send so little that 1 / sum would be infinite.
+  for (float& share : shares.share) share /= sum;
+  for (float& cumulative : shares.cumulative) cumulative /= sum;
   shares.cumulative.back() = 1;
 }
 

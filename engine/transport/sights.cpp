@@ -235,8 +235,6 @@ void add_row_hits(std::span<uint64_t> seen, const Rows& rows, const EmitterGroup
         const uint32_t piece = find_piece(groups, face, hits.cell[k]);
         if (piece == kNone || luminance(faces.emission[face]) <= by_rows) continue;
         const uint32_t group = groups.group_of[piece];
-        // A group is aimed at as a whole: by its brightest.
-        if (groups.brightest[group] <= by_rows) continue;
         seen[row * groups.size() + group] |= uint64_t{1} << (piece - groups.piece_first[group]);
       }
     }

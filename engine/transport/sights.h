@@ -8,8 +8,7 @@
 namespace patchlight {
 
 // Looks from all receivers at all groups that they aim at, the sky's always. What a receiver's neighbours see
-// it may see, too. Raises ray_count.
-// What a row has met counts as seen, for looks may miss what shows through a gap.
+// it may see, too, and what its row has met, for looks may miss what shows through a gap. Raises ray_count.
 SightTable find_sights(const Rows& rows, const EmitterGroups& groups, std::span<const float> emission_by_rows,
                        uint64_t& ray_count);
 
